@@ -4,20 +4,556 @@
 #include "catalogue/catalogue.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <locale.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <yaml.h>
 
-#include "catalogue/content.h"
-#include "catalogue/guard.h"
+#include "catalogue/keys.h"
+#include "catalogue/mesh_entry.h"
+#include "catalogue/names.h"
 #include "catalogue/reader.h"
-#include "catalogue/revision.h"
 
 static enum percuss_status out_of_memory(const char *name, struct fault *fault)
 {
     return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", reader_short_name(name));
 }
+
+/* The guard refuses, before a document is built, parts of YAML that a catalogue does not need and a
+ * hostile text could abuse. */
+
+enum { MAX_DEPTH = 8, MAX_VALUES = 3000000 };
+
+struct guard {
+    const char *text;
+    const char *name;
+    struct fault *fault;
+    size_t depth, values, documents;
+};
+
+static enum percuss_status guard_refuse(const struct guard *guard, size_t line, const char *message)
+{
+    return fault_set(guard->fault, PERCUSS_BAD_REQUEST, "%s:%zu: %s",
+                     reader_short_name(guard->name), line + 1, message);
+}
+
+static size_t lines_before(const struct guard *guard, size_t offset)
+{
+    size_t line = 0;
+    for (size_t i = 0; i < offset; i++)
+        line += guard->text[i] == '\n';
+    return line;
+}
+
+/* libyaml compares each tag directive with all before it, within one step of the parser. */
+static enum percuss_status check_directives(const struct guard *guard, size_t size)
+{
+    static const char directive[] = "%TAG";
+    const char *found = memmem(guard->text, size, directive, sizeof directive - 1);
+    if (!found)
+        return PERCUSS_OK;
+    return guard_refuse(guard, lines_before(guard, (size_t)(found - guard->text)),
+                        "%TAG must not be used: write plain values");
+}
+
+/* A bad byte comes with its offset only. */
+static enum percuss_status encoding_fault(const struct guard *guard, const yaml_parser_t *parser,
+                                          size_t size)
+{
+    size_t offset = parser->problem_offset;
+    size_t line = lines_before(guard, offset < size ? offset : size);
+    char message[160];
+    snprintf(message, sizeof message, "must be UTF-8 text without control characters: %s",
+             parser->problem);
+    return guard_refuse(guard, line, message);
+}
+
+static enum percuss_status syntax_fault(const struct guard *guard, const yaml_parser_t *parser,
+                                        size_t size)
+{
+    if (parser->error == YAML_MEMORY_ERROR)
+        return out_of_memory(guard->name, guard->fault);
+    if (parser->error == YAML_READER_ERROR)
+        return encoding_fault(guard, parser, size);
+    char message[320];
+    int length = snprintf(message, sizeof message, "must be valid YAML: %s",
+                          parser->problem ? parser->problem : "unknown error");
+    if (parser->context && length < (int)sizeof message)
+        snprintf(message + length, sizeof message - (size_t)length, " (%s, from line %zu)",
+                 parser->context, parser->context_mark.line + 1);
+    return guard_refuse(guard, parser->problem_mark.line, message);
+}
+
+static bool has_anchor(const yaml_event_t *event)
+{
+    return event->type == YAML_ALIAS_EVENT ||
+           (event->type == YAML_SCALAR_EVENT && event->data.scalar.anchor) ||
+           (event->type == YAML_SEQUENCE_START_EVENT && event->data.sequence_start.anchor) ||
+           (event->type == YAML_MAPPING_START_EVENT && event->data.mapping_start.anchor);
+}
+
+static bool has_tag(const yaml_event_t *event)
+{
+    return (event->type == YAML_SCALAR_EVENT && event->data.scalar.tag) ||
+           (event->type == YAML_SEQUENCE_START_EVENT && event->data.sequence_start.tag) ||
+           (event->type == YAML_MAPPING_START_EVENT && event->data.mapping_start.tag);
+}
+
+static void guard_count(struct guard *guard, const yaml_event_t *event)
+{
+    switch (event->type) {
+    case YAML_DOCUMENT_START_EVENT:
+        guard->documents++;
+        break;
+    case YAML_SEQUENCE_START_EVENT:
+    case YAML_MAPPING_START_EVENT:
+        guard->depth++;
+        guard->values++;
+        break;
+    case YAML_SCALAR_EVENT:
+        guard->values++;
+        break;
+    case YAML_SEQUENCE_END_EVENT:
+    case YAML_MAPPING_END_EVENT:
+        guard->depth--;
+        break;
+    default:
+        break;
+    }
+}
+
+static enum percuss_status guard_inspect(struct guard *guard, const yaml_event_t *event)
+{
+    size_t line = event->start_mark.line;
+    guard_count(guard, event);
+    if (has_anchor(event))
+        return guard_refuse(
+            guard, line,
+            "anchors and aliases (&name, *name) must not be used: write the value out");
+    if (has_tag(event))
+        return guard_refuse(guard, line, "tags (!name) must not be used: write the plain value");
+    if (guard->documents > 1)
+        return guard_refuse(guard, line, "a second document: must be a single one");
+    if (guard->depth > MAX_DEPTH)
+        return guard_refuse(guard, line, "nested too deeply: must be at most 8 levels");
+    if (guard->values > MAX_VALUES)
+        return guard_refuse(guard, line, "too many values: must be at most 3000000");
+    return PERCUSS_OK;
+}
+
+static enum percuss_status guard_scan(struct guard *guard, yaml_parser_t *parser, size_t size)
+{
+    enum percuss_status status = PERCUSS_OK;
+    bool more = true;
+    while (!status && more) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(parser, &event))
+            return syntax_fault(guard, parser, size);
+        status = guard_inspect(guard, &event);
+        more = event.type != YAML_STREAM_END_EVENT;
+        yaml_event_delete(&event);
+    }
+    if (!status && guard->documents == 0)
+        status = guard_refuse(guard, 0, "an empty file: must hold materials and bodies");
+    return status;
+}
+
+/* PERCUSS_OK if the text is exactly one YAML document without anchors, aliases and tags, of bounded
+ * depth and number of values; else PERCUSS_BAD_REQUEST with "NAME:LINE: ...", or PERCUSS_INTERNAL
+ * without memory. */
+static enum percuss_status guard_check(const char *text, size_t size, const char *name,
+                                       struct fault *fault)
+{
+    struct guard guard = {.text = text, .name = name, .fault = fault};
+    yaml_parser_t parser;
+    enum percuss_status status = check_directives(&guard, size);
+    if (status)
+        return status;
+    if (!yaml_parser_initialize(&parser))
+        return out_of_memory(name, fault);
+    yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+    status = guard_scan(&guard, &parser, size);
+    yaml_parser_delete(&parser);
+    return status;
+}
+
+/* The content: a document becomes a set of bodies. */
+
+struct materials {
+    struct names names;
+    struct stated_material *list; /* in the order of the file */
+};
+
+/* Gives a message of the model, "field: value: must be ...", the line of that field. */
+static enum percuss_status refuse_field(struct reader *reader, struct entry entry,
+                                        const char *message)
+{
+    char field[64];
+    size_t length = strcspn(message, ":");
+    snprintf(field, sizeof field, "%.*s", (int)strcspn(message, ":.["), message);
+    const yaml_node_t *at = reader_find(reader, entry.value, field).value;
+    snprintf(field, sizeof field, "%.*s", (int)length, message);
+    reader_enter(reader, field);
+    const char *rest = message + length;
+    return reader_refuse(reader, at ? at : entry.key, "%s", rest + strspn(rest, ": "));
+}
+
+static enum percuss_status read_material(struct reader *reader, struct entry entry,
+                                         struct stated_material *stated)
+{
+    struct material *material = &stated->material;
+    *stated = (struct stated_material){
+        .material.yield = INFINITY, .loss_factor = NAN, .yield_unstated = true};
+    memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
+    size_t mark = reader_enter(reader, material->name);
+    enum percuss_status status = keys_read(reader, entry, &keys_material, stated);
+    if (status)
+        return status;
+    struct fault fault = {0};
+    if (material_check(material, &fault))
+        return refuse_field(reader, entry, fault.text);
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_materials(struct reader *reader, const yaml_node_t *mapping,
+                                          struct materials *materials)
+{
+    size_t mark = reader_enter(reader, "materials");
+    enum percuss_status status = names_read(reader, mapping, &materials->names);
+    if (status)
+        return status;
+    materials->list = malloc(materials->names.count * sizeof *materials->list);
+    if (!materials->list)
+        return out_of_memory(reader->name, reader->fault);
+    for (size_t i = 0; !status && i < materials->names.count; i++)
+        status = read_material(reader, reader_entry(reader, mapping, i), &materials->list[i]);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+static void materials_free(struct materials *materials)
+{
+    names_free(&materials->names);
+    free(materials->list);
+}
+
+/* The kind decides which other keys are allowed. */
+static enum percuss_status read_kind(struct reader *reader, struct entry entry, struct body *body)
+{
+    const struct key *key = &keys_body.keys[0];
+    if (entry.value->type != YAML_MAPPING_NODE)
+        return reader_refuse_value(reader, entry.value, "a mapping with shape, material, ...");
+    const yaml_node_t *value = reader_find(reader, entry.value, key->name).value;
+    size_t mark = reader_enter(reader, key->name);
+    if (!value)
+        return reader_refuse(reader, entry.key, "missing: must be %s", key_allowed(key).text);
+    enum percuss_status status = keys_read_value(reader, value, key, body);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+static enum percuss_status find_material(struct reader *reader, struct entry entry,
+                                         const struct materials *materials, struct body *body)
+{
+    size_t position = names_find(&materials->names, body->material.name);
+    if (position < materials->names.count) {
+        body->material = materials->list[position].material;
+        body->loss_factor = materials->list[position].loss_factor;
+        body->yield_unstated = materials->list[position].yield_unstated;
+        return PERCUSS_OK;
+    }
+    const yaml_node_t *value = reader_find(reader, entry.value, "material").value;
+    reader_enter(reader, "material");
+    return reader_refuse(reader, value, "%s: unknown material; must be one of %s",
+                         reader_excerpt(value).text, names_list(&materials->names).text);
+}
+
+/* What its keys do not say: the material's numbers, and a file with all that follows. */
+static enum percuss_status read_rest(struct reader *reader, struct entry entry,
+                                     const struct materials *materials, struct mesh_files *files,
+                                     struct body_set *set, struct body *body)
+{
+    enum percuss_status status = PERCUSS_OK;
+    if (!body->kind->own_material || reader_find(reader, entry.value, "material").value)
+        status = find_material(reader, entry, materials, body);
+    if (!status && body->kind->own_material)
+        status = mesh_entry_read(reader, entry, files, set, body);
+    /* a mode of the ratio d loses 4 pi d of its energy in a cycle, the material 2 pi loss_factor */
+    if (!status && body->loss_factor > 0.0 && body_can_vibrate(body) &&
+        !reader_find(reader, entry.value, "damping").value)
+        body->damping = 0.5 * body->loss_factor;
+    return status;
+}
+
+/* Whether its mesh is still to be reduced. */
+static bool is_ordered(const struct body *body)
+{
+    return body->kind->own_material && !body->mesh;
+}
+
+static enum percuss_status read_body(struct reader *reader, struct entry entry,
+                                     const struct materials *materials, struct mesh_files *files,
+                                     struct body_set *set, struct body *body)
+{
+    memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
+    size_t mark = reader_enter(reader, body->id);
+    /* its kind first, which says what other keys there are */
+    enum percuss_status status = read_kind(reader, entry, body);
+    if (status)
+        return status;
+    const struct key_table keys = {body->kind->name, body->kind->keys, body->kind->key_count,
+                                   body->kind->own_material ? &keys_own : &keys_body};
+    status = keys_read(reader, entry, &keys, body);
+    if (!status)
+        status = read_rest(reader, entry, materials, files, set, body);
+    if (status)
+        return status;
+    /* what follows from them, if they make a body already */
+    if (is_ordered(body)) {
+        reader_leave(reader, mark);
+        return PERCUSS_OK;
+    }
+    struct fault fault = {0};
+    if (body_complete(body, &fault))
+        return refuse_field(reader, entry, fault.text);
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t *mapping,
+                                       const struct materials *materials, struct body_set *set)
+{
+    struct names names;
+    size_t mark = reader_enter(reader, "bodies");
+    enum percuss_status status = names_read(reader, mapping, &names);
+    if (status)
+        return status;
+    size_t count = names.count;
+    names_free(&names);
+    set->bodies = malloc(count * sizeof *set->bodies);
+    if (!set->bodies)
+        return out_of_memory(reader->name, reader->fault);
+    struct mesh_files files = {NULL};
+    for (size_t i = 0; !status && i < count; i++) {
+        /* counted with what it owns, whether it is accepted or not */
+        set->bodies[set->count++] =
+            (struct body){.tip_radius = INFINITY, .loss_factor = NAN, .yield_unstated = true};
+        struct body *body = &set->bodies[set->count - 1];
+        status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set, body);
+        /* what is not there yet is no body of the set */
+        if (!status && is_ordered(body)) {
+            free(body->sites);
+            free(body->damping_shares);
+            set->count--;
+        }
+    }
+    mesh_files_free(&files, set);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+/* A file that is written while it is read, or was cut off, has lost its end. */
+static enum percuss_status check_marks(struct reader *reader, const yaml_node_t *root,
+                                       const struct body_set *set)
+{
+    if (set->begin == set->end)
+        return PERCUSS_OK;
+    struct entry mark = reader_find(reader, root, set->begin ? "begin" : "end");
+    return reader_refuse(reader, mark.key,
+                         set->begin ? "begin: stands without end: must have a last line `end: "
+                                      "true`: the file may be cut off"
+                                    : "end: stands without begin: must have a first line `begin: "
+                                      "true`: the file may be cut off");
+}
+
+/* Reads a whole document into an empty set: materials, bodies (completed), contact; the revision is
+ * left to the caller. After a failure the set holds nothing. */
+static enum percuss_status content_read(struct reader *reader, struct body_set *set)
+{
+    struct materials materials = {0};
+    const yaml_node_t *root = yaml_document_get_root_node(reader->document);
+    *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_MATCHED};
+    enum percuss_status status = keys_read(reader, (struct entry){root, root}, &keys_top, set);
+    if (!status)
+        status = check_marks(reader, root, set);
+    if (!status)
+        status = read_materials(reader, reader_find(reader, root, "materials").value, &materials);
+    if (!status)
+        status = read_bodies(reader, reader_find(reader, root, "bodies").value, &materials, set);
+    materials_free(&materials);
+    if (status)
+        body_set_clear(set);
+    return status;
+}
+
+/* Reads the materials alone, and takes the one of that name. */
+static enum percuss_status content_read_material(struct reader *reader, const char *name,
+                                                 struct material *material)
+{
+    struct materials materials = {0};
+    const yaml_node_t *root = yaml_document_get_root_node(reader->document);
+    struct entry mapping = reader_find(reader, root, "materials");
+    if (!mapping.value || mapping.value->type != YAML_MAPPING_NODE)
+        return reader_refuse(reader, root, "materials: missing: must be a mapping of names");
+    enum percuss_status status = read_materials(reader, mapping.value, &materials);
+    size_t position = status ? 0 : names_find(&materials.names, name);
+    if (!status && position < materials.names.count)
+        *material = materials.list[position].material;
+    else if (!status)
+        status = reader_refuse(reader, mapping.key,
+                               "materials: %.63s: unknown material; must be one of %s", name,
+                               names_list(&materials.names).text);
+    materials_free(&materials);
+    return status;
+}
+
+/* The revision. */
+
+/* FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): xor an octet, multiply by 2^88 + 0x13b. */
+__extension__ typedef unsigned __int128 wide;
+
+struct hash {
+    wide state;
+};
+
+static void hash_octet(struct hash *hash, unsigned char octet)
+{
+    const wide prime = ((wide)1 << 88) + 0x13b;
+    hash->state = (hash->state ^ octet) * prime;
+}
+
+static void hash_number(struct hash *hash, uint64_t number)
+{
+    for (int shift = 0; shift < 64; shift += 8)
+        hash_octet(hash, (unsigned char)(number >> shift));
+}
+
+static void hash_double(struct hash *hash, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    hash_number(hash, bits);
+}
+
+/* The terminating zero keeps neighbours apart. */
+static void hash_text(struct hash *hash, const char *text)
+{
+    size_t size = strlen(text) + 1;
+    for (size_t i = 0; i < size; i++)
+        hash_octet(hash, (unsigned char)text[i]);
+}
+
+static void hash_material(struct hash *hash, const struct material *material)
+{
+    hash_text(hash, material->name);
+    hash_double(hash, material->young);
+    hash_double(hash, material->poisson);
+    hash_double(hash, material->density);
+    hash_double(hash, material->yield);
+    hash_double(hash, material->tangent);
+}
+
+static void hash_doubles(struct hash *hash, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        hash_double(hash, values[i]);
+}
+
+/* A file by what it was made from, and what the catalogue says of it. */
+static void hash_mesh(struct hash *hash, const struct body *body)
+{
+    hash_text(hash, body->mesh->hash);
+    hash_text(hash, body->mesh->source);
+    hash_double(hash, body->scale);
+    hash_number(hash, body->rigid);
+    if (body->damping_count > 0)
+        hash_number(hash, body->damping_count);
+    hash_doubles(hash, body->damping_shares, body->damping_count);
+    hash_number(hash, body->site_count);
+    for (size_t i = 0; i < body->site_count; i++) {
+        const struct body_site *site = &body->sites[i];
+        hash_text(hash, site->name);
+        hash_doubles(hash, site->point, 3);
+        hash_doubles(hash, site->normal, 3);
+        hash_doubles(hash, site->curvature, 9);
+        hash_number(hash, site->has_normal);
+        hash_number(hash, site->has_curvature);
+    }
+}
+
+static void hash_body(struct hash *hash, const struct body *body)
+{
+    const double dimensions[] = {
+        body->radius,  body->width,   body->height,  body->length,  body->tip_radius,
+        body->size[0], body->size[1], body->size[2], body->damping,
+    };
+    hash_text(hash, body->id);
+    hash_material(hash, &body->material);
+    hash_number(hash, body_kind_number(body->kind));
+    for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
+        hash_double(hash, dimensions[i]);
+    hash_number(hash, body->lateral_inertia);
+    hash_number(hash, body->supports[0]);
+    hash_number(hash, body->supports[1]);
+    hash_number(hash, body->modes);
+    hash_number(hash, body->theory);
+    /* the factors themselves: they are NAN where the rule has no effect */
+    for (int plane = 0; plane < 2 && !isnan(body->shear_factor[plane]); plane++)
+        hash_double(hash, body->shear_factor[plane]);
+    if (!isnan(body->loss_factor)) {
+        hash_text(hash, "loss_factor");
+        hash_double(hash, body->loss_factor);
+    }
+    if (isinf(body->material.yield) && !body->yield_unstated)
+        hash_text(hash, "yield: none");
+    if (body->mesh)
+        hash_mesh(hash, body);
+}
+
+static int by_id(const void *a, const void *b)
+{
+    const struct body *const *x = a, *const *y = b;
+    return strcmp((*x)->id, (*y)->id);
+}
+
+/* Writes set->revision: 32 hexadecimal digits, a hash of the bodies (ids, shapes, all numbers'
+ * bits, materials in use) and of the contact's settings, whatever the order of the bodies and the
+ * look of the file. PERCUSS_OK or PERCUSS_INTERNAL without memory. */
+static enum percuss_status revision_write(struct body_set *set, struct fault *fault)
+{
+    /* by id, wherever in the file they stand */
+    const struct body **order = malloc((set->count + 1) * sizeof *order);
+    if (!order)
+        return fault_set(fault, PERCUSS_INTERNAL, "catalogue revision: out of memory");
+    for (size_t i = 0; i < set->count; i++)
+        order[i] = &set->bodies[i];
+    qsort(order, set->count, sizeof *order, by_id);
+
+    /* from the offset basis over all that a result depends on */
+    struct hash hash = {(wide)0x6c62272e07bb0142 << 64 | 0x62b821756295c58d};
+    hash_text(&hash, "percuss catalogue 1"); /* of this list of fields */
+    hash_number(&hash, set->compliance);
+    hash_number(&hash, set->count);
+    for (size_t i = 0; i < set->count; i++)
+        hash_body(&hash, order[i]);
+    free(order);
+    snprintf(set->revision, sizeof set->revision, "%016" PRIx64 "%016" PRIx64,
+             (uint64_t)(hash.state >> 64), (uint64_t)hash.state);
+    return PERCUSS_OK;
+}
+
+/* Files and texts. */
 
 /* The guard has parsed the same text before: only memory can fail here. */
 static enum percuss_status load_document(const char *text, size_t size, const char *name,

@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests catalogue/guard.c: text that is not YAML or uses more of YAML than a catalogue needs. */
+/* Tests the guard of catalogue/catalogue.c: text that is not YAML or uses more of YAML than a
+ * catalogue needs. */
 #include <stdlib.h>
 
 #include "parse.h"
