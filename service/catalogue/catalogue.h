@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Bodies and materials from YAML. The keys, their units and ranges stand in keys_table.c; the
+/* Bodies and materials from YAML. The keys, their units and ranges stand in keys.c; the
  * shipped example is config/catalogue.yaml. */
 #ifndef PERCUSS_CATALOGUE_CATALOGUE_H
 #define PERCUSS_CATALOGUE_CATALOGUE_H

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests what the tables of keys say for the reference (keys_table.c and the kinds of bodies): each
+/* Tests what the tables of keys say for the reference (keys.c and the kinds of bodies): each
  * key has a meaning, and a default that is stated holds. */
 #include "catalogue/keys.h"
 #include "model/body_kind.h"
