@@ -3,15 +3,307 @@
 
 #include "endpoint/endpoint.h"
 
+#include <dds/ddsi/ddsi_serdata.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
 
-#include "endpoint/intake.h"
+#include "endpoint/inbox.h"
+#include "endpoint/owners.h"
 #include "exchange/describe.h"
+#include "exchange/text.h"
 #include "wire_clock.h"
 #include "wire_security.h"
+
+/* Requests of one kind: taken from DDS, put in the order of turns, decoded and handed on. Of the
+ * thread that runs the endpoint. */
+
+/* Samples are taken all before any is looked at, so that those of many writers can take turns;
+ * looked at are a few before the next look at who has come. */
+enum { TAKEN_AT_ONCE = 32, TAKEN_BEFORE = 32 * TAKEN_AT_ONCE, SERVED_AT_ONCE = 16 };
+
+struct intake {
+    enum exchange exchange;
+    dds_entity_t reader;
+    void *sample;        /* the one at hand; its memory serves the next one */
+    struct inbox *inbox; /* of serialised data */
+};
+
+/* What decides about a request, and who gets it. */
+struct intake_desk {
+    const uint8_t *server;  /* this one's id */
+    struct owners *owners;  /* of clients' ids */
+    atomic_ullong *strange; /* counts those from others than the client whose id they bear */
+    const struct endpoint_handler *handler;
+};
+
+static const struct {
+    const char *topic;
+    const dds_topic_descriptor_t *type;
+} requests[EXCHANGE_COUNT] = {
+    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REQUEST, &percuss_v1_Request_desc},
+    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REQUEST, &percuss_v1_BatchRequest_desc},
+    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REQUEST, &percuss_v1_EnsembleRequest_desc},
+};
+
+static void intake_drop(void *taken)
+{
+    ddsi_serdata_unref(taken);
+}
+
+/* Makes the reader, a child of the participant. False with a fault; intake_close is due all the
+ * same, before the participant's end. */
+static bool intake_open(struct intake *intake, enum exchange exchange, dds_entity_t participant,
+                        const char *partition, struct fault *fault)
+{
+    const dds_topic_descriptor_t *type = requests[exchange].type;
+    *intake = (struct intake){.exchange = exchange,
+                              .sample = dds_alloc(type->m_size),
+                              .inbox = inbox_create(WIRE_WINDOW, intake_drop)};
+    if (!intake->inbox) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        return false;
+    }
+    dds_entity_t topic = wire_topic_create(participant, type, requests[exchange].topic);
+    dds_qos_t *qos = wire_qos_exchange(partition);
+    intake->reader = topic > 0 ? dds_create_reader(participant, topic, qos, NULL) : topic;
+    dds_delete_qos(qos);
+    if (intake->reader < 0)
+        fault_set(fault, PERCUSS_INTERNAL, "DDS: reader of %s: %s", requests[exchange].topic,
+                  dds_strretcode(intake->reader));
+    return intake->reader > 0;
+}
+
+static void intake_close(struct intake *intake)
+{
+    inbox_free(intake->inbox);
+    if (intake->sample)
+        dds_sample_free(intake->sample, requests[intake->exchange].type, DDS_FREE_ALL);
+}
+
+/* Requests wake by the status of their reader. A read condition would do so while DDS still holds
+ * the reader's lock, so that taking them costs another sleep, some 8 us. The status tells of new
+ * samples only: whoever is woken takes until none is left. */
+static bool intake_attach(const struct intake *intake, dds_entity_t waitset)
+{
+    return dds_set_status_mask(intake->reader, DDS_DATA_AVAILABLE_STATUS) == DDS_RETCODE_OK &&
+           dds_waitset_attach(waitset, intake->reader, intake->exchange) == DDS_RETCODE_OK;
+}
+
+/* The server that the sample at hand names, and the client whose id it bears. */
+static const uint8_t *intake_addressee(const struct intake *intake, const uint8_t **client)
+{
+    if (intake->exchange == EXCHANGE_BATCH) {
+        const percuss_v1_BatchRequest *batch = intake->sample;
+        *client = batch->client;
+        return batch->server;
+    }
+    if (intake->exchange == EXCHANGE_ENSEMBLE) {
+        const percuss_v1_EnsembleRequest *ensemble = intake->sample;
+        *client = ensemble->client;
+        return ensemble->server;
+    }
+    const percuss_v1_Request *request = intake->sample;
+    *client = request->client;
+    return request->server;
+}
+
+/* Whether the sample at hand is for this server, or any, and its client's own. A stranger gets no
+ * reply: it would go to the client. */
+static bool intake_is_due(struct intake *intake, const struct intake_desk *desk,
+                          dds_instance_handle_t writer)
+{
+    static const uint8_t anybody[16];
+    const uint8_t *client, *server = intake_addressee(intake, &client);
+    if (memcmp(server, anybody, sizeof anybody) != 0 &&
+        memcmp(server, desk->server, sizeof anybody) != 0)
+        return false;
+    bool own = owners_allow_writer(desk->owners, client, intake->reader, writer);
+    if (!own)
+        atomic_fetch_add(desk->strange, 1);
+    return own;
+}
+
+static void intake_hand_on(const struct intake *intake, const struct endpoint_handler *handler,
+                           bool alone)
+{
+    if (intake->exchange == EXCHANGE_SINGLE)
+        handler->single(handler->context, intake->sample, alone);
+    else if (intake->exchange == EXCHANGE_BATCH)
+        handler->batch(handler->context, intake->sample);
+    else
+        handler->ensemble(handler->context, intake->sample);
+}
+
+/* Decodes and hands on what was taken, if it is due here, and lets go of it. */
+static void intake_serve_one(struct intake *intake, const struct intake_desk *desk,
+                             struct ddsi_serdata *taken, dds_instance_handle_t writer, bool alone)
+{
+    if (ddsi_serdata_to_sample(taken, intake->sample, NULL, NULL) &&
+        intake_is_due(intake, desk, writer))
+        intake_hand_on(intake, desk->handler, alone);
+    ddsi_serdata_unref(taken);
+}
+
+/* Takes the samples of the reader, up to a bound; true: more may be left. One that comes alone is
+ * served at once. */
+static bool intake_take(struct intake *intake, const struct intake_desk *desk)
+{
+    struct ddsi_serdata *taken[TAKEN_AT_ONCE];
+    dds_sample_info_t infos[TAKEN_AT_ONCE];
+    dds_return_t count = TAKEN_AT_ONCE;
+    for (int all = 0; count == TAKEN_AT_ONCE && all < TAKEN_BEFORE; all += TAKEN_AT_ONCE) {
+        count = dds_takecdr(intake->reader, taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
+        bool alone = count == 1 && inbox_is_empty(intake->inbox);
+        /* samples without data only tell that a client's writer has gone */
+        for (dds_return_t i = 0; i < count; i++) {
+            if (!infos[i].valid_data)
+                ddsi_serdata_unref(taken[i]);
+            else if (alone)
+                intake_serve_one(intake, desk, taken[i], infos[i].publication_handle, true);
+            else
+                inbox_put(intake->inbox, infos[i].publication_handle, taken[i]);
+        }
+    }
+    return count == TAKEN_AT_ONCE;
+}
+
+/* Serves a few of the samples taken; true: some are left. */
+static bool intake_serve(struct intake *intake, const struct intake_desk *desk)
+{
+    for (int i = 0; i < SERVED_AT_ONCE && !inbox_is_empty(intake->inbox); i++) {
+        uint64_t writer;
+        struct ddsi_serdata *taken = inbox_take(intake->inbox, &writer);
+        intake_serve_one(intake, desk, taken, writer, false);
+    }
+    return !inbox_is_empty(intake->inbox);
+}
+
+/* The topic of specimens. Clients write volatile samples, which the readers of announcements do not
+ * get. */
+
+enum { DENTS_AT_ONCE = 8 };
+
+struct dents_topic {
+    dds_entity_t reader, writer; /* 0: not open */
+    uint8_t server[16];
+};
+
+/* Opens it for that server. The participant's end closes it. False with a fault. */
+static bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant,
+                             const char *partition, const uint8_t server[16], struct fault *fault)
+{
+    memcpy(topic->server, server, sizeof topic->server);
+    dds_entity_t name = wire_topic_create(participant, &percuss_v1_Dents_desc, WIRE_TOPIC_DENTS);
+    dds_qos_t *announces = wire_qos_announcement(partition), *hears = wire_qos_exchange(partition);
+    dds_qset_ignorelocal(hears, DDS_IGNORELOCAL_PARTICIPANT);
+    topic->writer = dds_create_writer(participant, name, announces, NULL);
+    topic->reader = dds_create_reader(participant, name, hears, NULL);
+    dds_delete_qos(announces);
+    dds_delete_qos(hears);
+    if (topic->writer > 0 && topic->reader > 0 &&
+        dds_set_status_mask(topic->reader, DDS_DATA_AVAILABLE_STATUS) == DDS_RETCODE_OK)
+        return true;
+    fault_set(fault, PERCUSS_INTERNAL, "DDS: " WIRE_TOPIC_DENTS ": %s",
+              dds_strretcode(topic->reader < 0 ? topic->reader : topic->writer));
+    return false;
+}
+
+static void fill_patches(percuss_v1_Dent *patches, const struct body_state *state)
+{
+    const struct dent *dents = body_state_dents(state);
+    for (size_t i = 0; i < state->dents; i++) {
+        memcpy(patches[i].point, dents[i].point, sizeof patches[i].point);
+        patches[i].size = dents[i].size;
+        patches[i].max_indentation = dents[i].history.max_indentation;
+        patches[i].max_force = dents[i].history.max_force;
+        patches[i].residual_indentation = dents[i].history.dent;
+        patches[i].contact_radius = dents[i].history.contact_radius;
+    }
+}
+
+static void dents_topic_announce(const struct dents_topic *topic, const struct dents_notice *notice)
+{
+    percuss_v1_Dent patches[BODY_STATE_MAX_DENTS];
+    percuss_v1_Dents wire = {.impacts = notice->impacts};
+    uint32_t count = notice->state ? (uint32_t)notice->state->dents : 0;
+    COPY_TEXT(wire.specimen, notice->specimen);
+    COPY_TEXT(wire.body, notice->body);
+    memcpy(wire.server, topic->server, sizeof wire.server);
+    if (count)
+        fill_patches(patches, notice->state);
+    wire.patches._buffer = patches;
+    wire.patches._length = wire.patches._maximum = count;
+    dds_write(topic->writer, &wire);
+}
+
+static void dents_topic_withdraw(const struct dents_topic *topic, const char *specimen)
+{
+    percuss_v1_Dents wire = {0};
+    COPY_TEXT(wire.specimen, specimen);
+    memcpy(wire.server, topic->server, sizeof wire.server);
+    dds_dispose(topic->writer, &wire);
+}
+
+/* Shows the specimens of this server that clients want cleared. */
+static void dents_topic_take(const struct dents_topic *topic,
+                             void (*clear)(void *context, const char *specimen), void *context)
+{
+    void *samples[DENTS_AT_ONCE] = {NULL};
+    dds_sample_info_t infos[DENTS_AT_ONCE];
+    dds_return_t count;
+    while ((count = dds_take(topic->reader, samples, infos, DENTS_AT_ONCE, DENTS_AT_ONCE)) > 0) {
+        for (dds_return_t i = 0; i < count; i++) {
+            const percuss_v1_Dents *wire = samples[i];
+            if (infos[i].valid_data && wire->clear &&
+                memcmp(wire->server, topic->server, sizeof wire->server) == 0)
+                clear(context, wire->specimen);
+        }
+        dds_return_loan(topic->reader, samples, count);
+    }
+}
+
+/* The other servers of the domain. */
+
+/* Always the same room: Cyclone DDS 0.10.2 fills that of the loan of an earlier read. */
+enum { SERVERS_AT_ONCE = 64 };
+
+/* A reader of their announcements, which the participant's end closes; 0 with a fault. */
+static dds_entity_t servers_open(dds_entity_t participant, const char *partition,
+                                 struct fault *fault)
+{
+    dds_qos_t *qos = wire_qos_announcement(partition);
+    dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
+    dds_entity_t reader =
+        wire_topic_create(participant, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS);
+    if (reader > 0)
+        reader = dds_create_reader(participant, reader, qos, NULL);
+    dds_delete_qos(qos);
+    if (reader > 0)
+        return reader;
+    fault_set(fault, PERCUSS_INTERNAL, "DDS: reader of " WIRE_TOPIC_SERVER_STATUS ": %s",
+              dds_strretcode(reader));
+    return 0;
+}
+
+/* Shows each of them that is alive. */
+static void servers_visit(dds_entity_t reader, server_visitor *visitor, void *context)
+{
+    void *samples[SERVERS_AT_ONCE] = {NULL};
+    dds_sample_info_t infos[SERVERS_AT_ONCE];
+    dds_return_t count =
+        dds_read_mask(reader, samples, infos, SERVERS_AT_ONCE, SERVERS_AT_ONCE,
+                      DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+    for (dds_return_t i = 0; i < count; i++) {
+        if (infos[i].valid_data)
+            visitor(context, samples[i]);
+    }
+    if (count > 0)
+        dds_return_loan(reader, samples, count);
+}
+
+/* The endpoint. */
 
 enum { WRITE_ATTEMPTS = 20 };
 

@@ -6,13 +6,26 @@
 #ifndef PERCUSS_ENDPOINT_ENDPOINT_H
 #define PERCUSS_ENDPOINT_ENDPOINT_H
 
-#include "endpoint/dents_topic.h"
-#include "endpoint/handler.h"
+#include "base/fault.h"
+#include "contact/body_state.h"
 #include "endpoint/reply_writers.h"
-#include "endpoint/servers.h"
 #include "model/body.h"
+#include "wire.h"
 
 struct endpoint;
+
+/* What happens with arriving samples, all in the thread of endpoint_run. The samples are borrowed.
+ * `alone`: no other request came with this one, so there is time to answer it on the spot. */
+struct endpoint_handler {
+    void *context;
+    void (*single)(void *context, const percuss_v1_Request *request, bool alone);
+    void (*batch)(void *context, const percuss_v1_BatchRequest *batch);
+    void (*ensemble)(void *context, const percuss_v1_EnsembleRequest *request);
+    void (*clear)(void *context,
+                  const char *specimen); /* of this server; see endpoint_open_dents */
+    presence_function *presence;
+    void (*alive)(void *context); /* after endpoint_nudge; NULL: nobody wants to know */
+};
 
 /* Joins the domain: when this returns, requests are received. `partition`: for those in it alone,
  * kept; empty: for those in none. `security`: the folder of its identity (wire_security.h); NULL:
@@ -65,9 +78,19 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
 /* Opens the topic of specimens; before endpoint_run. False with a fault. */
 bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault);
 
+/* What is told of a specimen. */
+struct dents_notice {
+    const char *specimen, *body;
+    uint64_t impacts;
+    const struct body_state *state; /* NULL: no dents */
+};
+
 /* Announces a specimen, or that it is no more. Thread-safe. */
 void endpoint_announce_dents(struct endpoint *endpoint, const struct dents_notice *notice);
 void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen);
+
+/* Borrowed during the visit. */
+typedef void server_visitor(void *context, const percuss_v1_ServerStatus *status);
 
 /* Shows the other servers of the domain. One thread at a time. */
 void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, void *context);
