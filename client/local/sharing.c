@@ -12,7 +12,6 @@
 #include "instance.h"
 #include "library.h"
 #include "moment.h"
-#include "respond/ensemble_part.h"
 
 /* What a part begins with; its items follow, as they lie in memory. */
 struct part_head {

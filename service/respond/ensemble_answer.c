@@ -10,12 +10,86 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ensemble/create.h"
+#include "ensemble/extras.h"
 #include "ensemble/report.h"
 #include "exchange/clock.h"
+#include "exchange/decode.h"
 #include "exchange/encode.h"
 #include "exchange/encode_ensemble.h"
-#include "respond/ensemble_prepare.h"
+#include "exchange/question.h"
 #include "respond/parallel.h"
+
+/* From a request to an ensemble whose samples can be solved. */
+
+struct ensemble_prepared {
+    struct decoded_ensemble *decoded;
+    struct ensemble ensemble;
+    struct table_maker maker; /* of tables that are asked for; only finds them afterwards */
+};
+
+/* Fills what is zeroed; to be released whatever it returns. TIMEOUT: the watch stopped it. */
+static enum percuss_status ensemble_prepare(struct ensemble_prepared *prepared,
+                                            const struct ensemble_means *means,
+                                            const struct ensemble_question *question,
+                                            const struct watch *watch, struct fault *fault)
+{
+    const percuss_v1_EnsembleRequest *request = question->request;
+    if (request->samples > means->most_samples)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "samples: %llu: must be at most %u, as the server's limits.samples says",
+                         (unsigned long long)request->samples, means->most_samples);
+    prepared->decoded = calloc(1, sizeof *prepared->decoded);
+    if (!prepared->decoded)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = decode_ensemble(request, prepared->decoded, fault);
+    if (status)
+        return status;
+    /* as for a single request: tables that are insisted on are computed when the impact as it is
+     * stated is tried; no input changes a material, so that the workers only look them up */
+    table_maker_init(&prepared->maker, &means->tables, means->limit);
+    prepared->decoded->spec.catalogue = means->snapshot->set;
+    prepared->decoded->spec.tables =
+        table_maker_begin(&prepared->maker, means->snapshot->tables, &request->scene,
+                          question->envelope.client, question->arrival);
+    status = ensemble_create(&prepared->ensemble, &prepared->decoded->spec, watch, fault);
+    /* why it was given up */
+    if (prepared->maker.status)
+        return fault_set(fault, prepared->maker.status, "%s", prepared->maker.fault.text);
+    /* computing a table is for a single thread */
+    table_maker_only_finds(&prepared->maker);
+    return status;
+}
+
+static void ensemble_prepared_release(struct ensemble_prepared *prepared)
+{
+    ensemble_release(&prepared->ensemble);
+    free(prepared->decoded);
+}
+
+/* The same for all who solve items of this ensemble alike: a hash of the question, the catalogue,
+ * the version, the model that was chosen, and the layout of an item in memory. */
+static struct digest ensemble_prepared_digest(const struct ensemble_prepared *prepared,
+                                              const struct ensemble_question *question)
+{
+    struct hasher hasher = {0};
+    const struct ensemble_model *model = &prepared->ensemble.model;
+    struct digest asked = question_digest_ensemble(question->request);
+    hash_bytes(&hasher, &asked, sizeof asked);
+    hash_text(&hasher, question->envelope.revision);
+    hash_text(&hasher, question->envelope.version);
+    hash_number(&hasher, prepared->ensemble.count);
+    hash_number(&hasher, model->pilots);
+    hash_number(&hasher, model->agreeing);
+    hash_bytes(&hasher, &model->tolerance, sizeof model->tolerance);
+    hash_bytes(&hasher, &model->model.cut, sizeof model->model.cut);
+    hash_bytes(&hasher, &model->model.accuracy, sizeof model->model.accuracy);
+    hash_number(&hasher, sizeof(struct ensemble_sample));
+    hash_number(&hasher, sizeof(struct ensemble_extra));
+    return hash_digest(&hasher);
+}
+
+/* A whole ensemble. */
 
 enum { MOST_WORKERS = 64 };
 
@@ -384,4 +458,66 @@ struct answer *ensemble_answer(const struct ensemble_means *means,
         answer->report->timing.solve = clock_now() - start;
     }
     return answer;
+}
+
+/* Items of one, for others. */
+
+struct ensemble_part {
+    const struct ensemble_question *question;
+    struct ensemble_prepared prepared;
+    struct ensemble_worker *worker;
+};
+
+enum percuss_status ensemble_part_create(const struct ensemble_means *means,
+                                         const struct ensemble_question *question,
+                                         struct ensemble_part **part, struct fault *fault)
+{
+    struct ensemble_part *created = calloc(1, sizeof *created);
+    *part = NULL;
+    if (!created)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    created->question = question;
+    enum percuss_status status = ensemble_prepare(&created->prepared, means, question, NULL, fault);
+    if (!status)
+        status = ensemble_worker_create(&created->worker, &created->prepared.ensemble, NULL, fault);
+    if (status)
+        ensemble_part_free(created);
+    else
+        *part = created;
+    return status;
+}
+
+void ensemble_part_free(struct ensemble_part *part)
+{
+    if (!part)
+        return;
+    ensemble_worker_free(part->worker);
+    ensemble_prepared_release(&part->prepared);
+    free(part);
+}
+
+struct digest ensemble_part_digest(const struct ensemble_part *part)
+{
+    return ensemble_prepared_digest(&part->prepared, part->question);
+}
+
+uint64_t ensemble_part_items(const struct ensemble_part *part, bool extras, uint64_t done)
+{
+    const struct ensemble *ensemble = &part->prepared.ensemble;
+    if (!extras)
+        return ensemble->count;
+    return done > 0 && done <= ensemble->count ? ensemble_extras(ensemble, done) : 0;
+}
+
+void ensemble_part_solve(struct ensemble_part *part, const struct ensemble_range *range,
+                         void *items)
+{
+    struct ensemble_sample *samples = items;
+    struct ensemble_extra *extras = items;
+    for (uint64_t i = range->first; i < range->end; i++) {
+        if (range->extras)
+            extras[i - range->first] = ensemble_extra(part->worker, range->done, i);
+        else
+            ensemble_solve(part->worker, i, &samples[i - range->first], NULL);
+    }
 }
