@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "respond/log_choice.h"
+#include "respond/settings.h"
 
 /* Messages above this level are left out; at first everything but LEVEL_DEBUG is written. */
 void log_limit(enum log_level level);

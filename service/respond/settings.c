@@ -406,3 +406,15 @@ bool settings_describe(size_t number, struct settings_row *row)
     write_default(&table[number], row);
     return true;
 }
+
+const char *log_level_name(enum log_level level)
+{
+    static const char *const names[LEVEL_COUNT] = {"error", "warning", "info", "debug"};
+    return names[level];
+}
+
+const char *log_format_name(enum log_format format)
+{
+    static const char *const names[LOG_FORMAT_COUNT] = {"text", "journal", "json"};
+    return names[format];
+}

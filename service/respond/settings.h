@@ -10,10 +10,22 @@
 #include <stddef.h>
 
 #include "base/fault.h"
-#include "respond/log_choice.h"
 #include "wire_partition.h"
 
 enum { SETTINGS_PATH_SIZE = 4096, SETTINGS_FOLDERS_MOST = 8 };
+
+/* The level and the form of a log. */
+enum log_level { LEVEL_ERROR, LEVEL_WARNING, LEVEL_INFO, LEVEL_DEBUG, LEVEL_COUNT };
+
+/* For people, for the journal of systemd (which has its own clock, and takes the level as "<N>"),
+ * and one JSON object a line. */
+enum log_format { LOG_TEXT, LOG_JOURNAL, LOG_JSON, LOG_FORMAT_COUNT };
+
+/* "error", "warning", ... */
+const char *log_level_name(enum log_level level);
+
+/* "text", "journal", "json" */
+const char *log_format_name(enum log_format format);
 
 struct settings {
     char catalogue[SETTINGS_PATH_SIZE];                     /* empty: not given */
