@@ -12,10 +12,10 @@
 
 #include "percuss_wire.h"
 
-/* What can be asked, each on a topic of its own and answered on one of its own. */
+/* Kinds of requests, each with a topic of its own and one for its replies. */
 enum exchange { EXCHANGE_SINGLE, EXCHANGE_BATCH, EXCHANGE_ENSEMBLE, EXCHANGE_COUNT };
 
-/* What stands in the head of every reply. */
+/* The head of every reply. */
 struct envelope {
     const uint8_t *client, *server; /* 16 octets each */
     uint64_t sequence;
@@ -26,10 +26,11 @@ struct envelope {
 struct answer {
     atomic_uint holders;
     enum exchange exchange;
-    bool passing;            /* BUSY and the like: tells of the moment, asked again it may differ */
+    bool passing;            /* BUSY and the like: the same request may get another one later */
     size_t bytes;            /* of memory, with all that it keeps alive */
     percuss_v1_Reply *reply; /* EXCHANGE_SINGLE; EXCHANGE_BATCH: all, side by side */
-    percuss_v1_Reply *decoded; /* that reply if it was made of bytes, and what frees it: */
+    percuss_v1_Reply
+        *decoded; /* that reply if it was made of bytes, and the function that frees it: */
     void (*free_decoded)(percuss_v1_Reply *decoded);
     percuss_v1_BatchReply *parts;     /* EXCHANGE_BATCH */
     percuss_v1_EnsembleReply *report; /* EXCHANGE_ENSEMBLE */
@@ -47,7 +48,7 @@ void answer_release(struct answer *answer); /* NULL is allowed */
 /* The room that `count` items of `size` bytes need. */
 size_t answer_room(size_t count, size_t size);
 
-/* The next piece of the answer's own memory, which must have been asked for. */
+/* The next piece of the answer's own memory, within the room of answer_create. */
 void *answer_take(struct answer *answer, size_t count, size_t size);
 
 #endif

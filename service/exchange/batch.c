@@ -10,7 +10,7 @@
 
 /* Serialised sizes: numbers of 8 bytes are aligned to 4, every structure and every list of
  * structures begins with 4 bytes of its length, a list with 4 more of its count. Texts and lists
- * count apart from what stands around them. */
+ * are counted apart from their structure. */
 #define SIZE(kind, ...) +SIZE_##kind
 #define SIZE_VALUE      8
 #define SIZE_VECTOR     24
@@ -31,7 +31,7 @@ enum {
     PART_FIXED = 1408 /* with the longest texts it can hold */
 };
 
-/* Its length, the terminating zero and what fills up to the next multiple of 4. */
+/* Its length, the terminating zero and the padding to the next multiple of 4. */
 static size_t text_size(const char *text)
 {
     return 4 + strlen(text) + 1 + 3;

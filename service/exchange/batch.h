@@ -11,7 +11,7 @@
 /* Largest sample, and most sub-impacts listed per contact. */
 enum { BATCH_PART_BYTES = 64 * 1024, BATCH_SUB_IMPACTS = 16 };
 
-/* At least what a reply takes serialised (XCDR2), within some 10 %. */
+/* A bound of a reply's serialised size (XCDR2) from above, within some 10 %. */
 size_t batch_reply_size(const percuss_v1_Reply *reply);
 
 /* As encode_result, for a member of a batch: lists fewer sub-impacts where a part would not hold

@@ -170,7 +170,7 @@ static void check_text(struct check *check, const char *field, const char *text)
 /* A request. */
 
 static const double DELASSUS_ASYMMETRY = 1e-9; /* of the two contacts' own inverse masses */
-/* 1/kg; what is lighter moves while its indentation is less than the rounding of a place, and the
+/* 1/kg; a lighter body moves while its indentation is less than the rounding of a place, and the
  * energies no longer balance */
 static const double DELASSUS_LARGEST = 1e12;
 
@@ -249,7 +249,7 @@ static void decode_options(struct check *check, const percuss_v1_Options *from,
     PERCUSS_OPTION_FIELDS(TAKE)
 }
 
-/* Rounding of a coupling that is none is as large as that of the diagonals. */
+/* A coupling of zero has rounding errors as large as those of the diagonals. */
 static void check_delassus_pair(struct check *check, const double *matrix, size_t count, size_t row,
                                 size_t column)
 {
@@ -332,13 +332,13 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
 
 /* An ensemble. */
 
-/* The quantity and whose it is. */
+/* The quantity, and the body that has it. */
 static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wire,
                          const struct solve_request *request, struct ensemble_input *input)
 {
     check_text(check, "name", wire->name);
     check_text(check, "body", wire->body);
-    /* what varies */
+    /* the quantity that varies */
     input->quantity = input_quantity_find(wire->name);
     check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
                "name: '%s': must be one of speed, direction, model-force, model-compliance, "
@@ -426,7 +426,7 @@ enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
     check.place = NULL;
     decode_correlations(&check, wire, decoded);
     check_choice(&check, "sampling", wire->sampling, SAMPLING_METHODS, sampling_name);
-    /* all of it in the ensemble's words */
+    /* the specification of the ensemble */
     decoded->spec = (struct ensemble_spec){
         .request = &decoded->request,
         .contact = wire->contact,

@@ -10,10 +10,10 @@
 #include "percuss_wire.h"
 #include "solve/request.h"
 
-/* Fills `request` (what is not used of its arrays stays as it was). PERCUSS_OK, or
+/* Fills `request` (unused elements of its arrays stay as they were). PERCUSS_OK, or
  * PERCUSS_BAD_REQUEST with a message like "contacts[0].normal: (0, 0, 2): must be a unit vector
  * (norm within 0.0001 of 1)". `request->delassus` points into `wire`. The states of the bodies are
- * NULL: state tokens and specimens are looked up by whoever has the stores. */
+ * NULL: the owner of the stores looks up state tokens and specimens. */
 enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_request *request,
                                    struct fault *fault);
 
@@ -27,9 +27,9 @@ struct decoded_ensemble {
     struct copula_pair correlations[DECODE_MAX_CORRELATIONS];
 };
 
-/* PERCUSS_OK, or PERCUSS_BAD_REQUEST with the field, its value and what is allowed: what the wire
- * can say wrong. Ranges of the numbers are ensemble_create's to judge. State tokens are refused:
- * they name one instant, not a distribution. */
+/* PERCUSS_OK, or PERCUSS_BAD_REQUEST with the field, its value and the allowed ones, for errors of
+ * the wire's form. ensemble_create checks the ranges of the numbers. State tokens are refused: they
+ * name one instant, not a distribution. */
 enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
                                     struct decoded_ensemble *decoded, struct fault *fault);
 

@@ -8,7 +8,7 @@
 #include "model/body.h"
 #include "percuss_wire.h"
 
-/* Fills everything but the server; `sites` is room for what the sample points to. */
+/* Fills everything but the server; the sample points into `sites`. */
 void describe_body(const struct body *body, percuss_v1_Body *wire,
                    percuss_v1_BodySite sites[BODY_MOST_SITES]);
 

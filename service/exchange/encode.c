@@ -9,7 +9,7 @@
 #include "impact/trace.h"
 #include "percuss/fields.h"
 
-/* Gives a sequence its elements; they live and die with the answer, not with the sample. */
+/* Gives a sequence its elements; the answer owns them, not the sample. */
 #define FILL_SEQUENCE(sequence, buffer, count)                                                     \
     do {                                                                                           \
         (sequence)._buffer = (buffer);                                                             \
@@ -22,7 +22,7 @@ bool encode_status_has_result(enum percuss_status status)
     return status == PERCUSS_OK || status == PERCUSS_TRUNCATED;
 }
 
-/* Whether a status tells of the moment only, so that the same request may get another later. */
+/* Whether the same request may get another status later. */
 static bool is_passing(enum percuss_status status)
 {
     return status == PERCUSS_BUSY || status == PERCUSS_TIMEOUT || status == PERCUSS_INTERNAL;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the solver found, as a reply on the wire. */
+/* The result of a solve, as a reply on the wire. */
 #ifndef PERCUSS_EXCHANGE_ENCODE_H
 #define PERCUSS_EXCHANGE_ENCODE_H
 
@@ -34,7 +34,7 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
 struct answer *encode_refusal(const struct envelope *envelope, enum percuss_status status,
                               const char *message);
 
-/* What stands in every part of a batch's reply, and in a refused one that is all. */
+/* The head of every part of a batch's reply; a refused one has nothing else. */
 void encode_batch_head(percuss_v1_BatchReply *part, const struct envelope *envelope,
                        enum percuss_status status, const char *message);
 

@@ -156,7 +156,7 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
         .within_high = check->within_bounds.high,
         .unmet = check->unmet,
     };
-    /* what the pilots chose for all of them */
+    /* the model that the pilots chose for all samples */
     reply->cut = ensemble->model.model.cut / (2.0 * M_PI);
     reply->step_accuracy = ensemble->model.model.accuracy;
     reply->pilots = ensemble->model.pilots;
@@ -199,7 +199,7 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
     reply->requested = ensemble->count;
     reply->refused = report->refused;
     reply->truncated = report->truncated;
-    /* what the samples say, and how good they are */
+    /* the results of the samples, and their check */
     fill_lists(answer, ensemble, report);
     fill_shape(answer, report);
     fill_model(answer, ensemble, &report->verification);

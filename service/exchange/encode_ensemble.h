@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What an ensemble says, as a reply on the wire. */
+/* The report of an ensemble, as a reply on the wire. */
 #ifndef PERCUSS_EXCHANGE_ENCODE_ENSEMBLE_H
 #define PERCUSS_EXCHANGE_ENCODE_ENSEMBLE_H
 
 #include "ensemble/report.h"
 #include "exchange/answer.h"
 
-/* How the ensemble ended: PERCUSS_OK, or PERCUSS_TRUNCATED with what cut it short. */
+/* How the ensemble ended: PERCUSS_OK, or PERCUSS_TRUNCATED with the reason. */
 struct ensemble_ending {
     enum percuss_status status;
     const char *message;

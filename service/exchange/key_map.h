@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Look-up by 128-bit key. The nodes are members of what is stored; the map never owns them. */
+/* Look-up by 128-bit key. The nodes are members of stored structures; the map never owns them. */
 #ifndef PERCUSS_EXCHANGE_KEY_MAP_H
 #define PERCUSS_EXCHANGE_KEY_MAP_H
 

@@ -9,7 +9,7 @@
 
 #include "percuss/fields.h"
 
-/* Adds a member of *from. Where it stands in the lists matters: stored questions are compared. */
+/* Adds a member of *from. The order of the lists matters: stored digests are compared. */
 #define HASH(kind, name, ...) HASH_##kind(name)
 
 #define HASH_NUMBER(name)     hash_bytes(hasher, &from->name, sizeof from->name);

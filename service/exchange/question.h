@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a request says, without who asks and under which number: two requests with the same key are
- * the same question. Also copies of requests that outlive the sample they came in. */
+/* A key of the content of a request, without its client and number: two requests with the same key
+ * are the same question. Also copies of requests that outlive their sample. */
 #ifndef PERCUSS_EXCHANGE_QUESTION_H
 #define PERCUSS_EXCHANGE_QUESTION_H
 
@@ -16,7 +16,7 @@ struct digest question_digest_ensemble(const percuss_v1_EnsembleRequest *request
 /* A copy of `count` requests in one block of memory for free(); NULL: out of memory. */
 percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t count);
 
-/* The same of an ensemble, but for its scene, whose lists stay the sample's. */
+/* The same of an ensemble, but the lists of its scene stay the sample's. */
 percuss_v1_EnsembleRequest *question_copy_ensemble(const percuss_v1_EnsembleRequest *request);
 
 #endif

@@ -101,7 +101,7 @@ static void session_seen(struct reply_store *store, struct session *session, dou
     TAILQ_INSERT_TAIL(&store->order, session, order);
 }
 
-/* Sessions of clients that are there stay, however long they are silent. */
+/* Sessions of present clients stay, however long they send nothing. */
 static void drop_gone(struct reply_store *store, double now)
 {
     struct session *next;

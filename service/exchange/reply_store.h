@@ -19,7 +19,7 @@ struct reply_limits {
     double seconds;    /* a client that has gone is remembered */
 };
 
-/* A request: who asks, on which topic, under which number. */
+/* A request: its client, topic and number. */
 struct request_name {
     const uint8_t *client; /* 16 octets */
     enum exchange exchange;
@@ -38,8 +38,7 @@ struct reply_store;
 struct reply_store *reply_store_create(const struct reply_limits *limits); /* NULL: no memory */
 void reply_store_free(struct reply_store *store);
 
-/* What to do with a request of this content. *answer is held for the caller if REPEATED, else
- * NULL. */
+/* Admits a request of this content. *answer is held for the caller if REPEATED, else NULL. */
 enum admission reply_store_admit(struct reply_store *store, const struct request_name *name,
                                  struct digest content, double now, struct answer **answer);
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Copies of texts. On the way of every reply, where snprintf would cost as much as DDS does. */
+/* Copies of texts. Every reply needs them, and snprintf would cost as much as DDS does. */
 #ifndef PERCUSS_EXCHANGE_TEXT_H
 #define PERCUSS_EXCHANGE_TEXT_H
 

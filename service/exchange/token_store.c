@@ -124,7 +124,7 @@ static bool is_same(const struct stored_state *stored, const struct token_subjec
            memcmp(stored->state, state, size) == 0;
 }
 
-/* The state of that token, whatever it is, or else this one; NULL: out of memory. */
+/* The stored state of that token, even if it differs, or else this one; NULL: out of memory. */
 static struct stored_state *find_or_store(struct token_store *store, struct digest key,
                                           const struct token_subject *subject,
                                           const struct body_state *state, size_t size)
@@ -169,7 +169,7 @@ bool token_store_put(struct token_store *store, const struct token_subject *subj
     return good;
 }
 
-/* Exactly what print_token writes. */
+/* The inverse of print_token, of its format alone. */
 static bool parse_token(const char *token, struct digest *key)
 {
     *key = (struct digest){0};

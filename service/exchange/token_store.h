@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Immutable states of bodies by name. A token is a hash of catalogue revision, body and state: the
- * same state has the same token, whoever computed it and whenever. Thread-safe. */
+/* Immutable states of bodies by name. A token is a hash of catalogue revision, body and state:
+ * equal states have equal tokens in every process and at every time. Thread-safe. */
 #ifndef PERCUSS_EXCHANGE_TOKEN_STORE_H
 #define PERCUSS_EXCHANGE_TOKEN_STORE_H
 
@@ -12,7 +12,7 @@
 #include "base/fault.h"
 #include "contact/body_state.h"
 
-/* What is kept: the states used last, within all three bounds. */
+/* Bounds of the store: it keeps the states used last, within all three. */
 struct token_limits {
     size_t count;
     size_t bytes;
@@ -21,9 +21,9 @@ struct token_limits {
 
 struct token_store;
 struct token_store *token_store_create(const struct token_limits *limits); /* NULL: no memory */
-void token_store_free(struct token_store *store); /* nothing may be held any more */
+void token_store_free(struct token_store *store); /* no state may be held any more */
 
-/* Whose state it is. */
+/* The body that has the state. */
 enum { TOKEN_BODY_SIZE = PERCUSS_ID_SIZE + 40 };
 struct token_subject {
     const char *revision; /* of the catalogue */
@@ -42,7 +42,7 @@ const struct body_state *token_store_hold(struct token_store *store, const char 
                                           struct fault *fault);
 void token_store_release(struct token_store *store, const struct body_state *state);
 
-/* Drops what has expired. */
+/* Drops expired states. */
 void token_store_sweep(struct token_store *store, double now);
 
 /* Number of states that can be asked for. */
