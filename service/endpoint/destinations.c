@@ -37,7 +37,7 @@ struct destinations {
     size_t most;
     writer_maker *make;
     void *context;        /* of that */
-    pthread_mutex_t lock; /* of the clients and what is in them */
+    pthread_mutex_t lock; /* of the clients and their members */
     struct key_map clients;
     LIST_HEAD(destination_list, destination) all_clients;
     /* of the thread that adds and removes them */

@@ -12,13 +12,13 @@
 #include "exchange/answer.h"
 #include "wire.h"
 
-/* What is written to clients: the replies of each exchange, and these. */
+/* Kinds of samples for clients: the replies of each exchange, and these. */
 enum { CHANNEL_PROGRESS = EXCHANGE_COUNT, CHANNEL_SAMPLES, CHANNEL_TRACE, CHANNEL_COUNT };
 
 enum delivery {
     DELIVERY_DONE,
     DELIVERY_NO_READER, /* the client has no reader of such replies */
-    DELIVERY_STALLED    /* it does not take what it was sent; tried again after a second */
+    DELIVERY_STALLED    /* it does not take its samples; tried again after a second */
 };
 
 /* Makes a writer for a client's channel; 0: there can be none. */
@@ -44,8 +44,8 @@ struct destination_reader {
  * memory. */
 bool destinations_add(struct destinations *destinations, const struct destination_reader *reader);
 
-/* A known reader has gone; `client` becomes its client. The writer that nobody reads any more, for
- * the caller to delete; 0: none. */
+/* A known reader has gone; `client` becomes its client. Returns the writer that no reader is left
+ * for, which the caller deletes; 0: none. */
 dds_entity_t destinations_remove(struct destinations *destinations, struct digest reader,
                                  uint8_t client[16]);
 
@@ -53,7 +53,7 @@ dds_entity_t destinations_remove(struct destinations *destinations, struct diges
 dds_entity_t destinations_writer(struct destinations *destinations, const uint8_t client[16],
                                  unsigned channel, enum delivery *reason);
 
-/* The client did not take what was written: the others are spared the wait for it for a while. */
+/* The client did not take a sample: for a while no write waits for it and delays the others. */
 void destinations_stall(struct destinations *destinations, const uint8_t client[16],
                         unsigned channel);
 

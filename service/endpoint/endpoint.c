@@ -19,8 +19,8 @@
 /* Requests of one kind: taken from DDS, put in the order of turns, decoded and handed on. Of the
  * thread that runs the endpoint. */
 
-/* Samples are taken all before any is looked at, so that those of many writers can take turns;
- * looked at are a few before the next look at who has come. */
+/* All samples are taken before any is decoded, so that many writers can take turns; a few are
+ * decoded before the next look for new events. */
 enum { TAKEN_AT_ONCE = 32, TAKEN_BEFORE = 32 * TAKEN_AT_ONCE, SERVED_AT_ONCE = 16 };
 
 struct intake {
@@ -30,11 +30,11 @@ struct intake {
     struct inbox *inbox; /* of serialised data */
 };
 
-/* What decides about a request, and who gets it. */
+/* The means to decide about a request, and its handler. */
 struct intake_desk {
     const uint8_t *server;  /* this one's id */
     struct owners *owners;  /* of clients' ids */
-    atomic_ullong *strange; /* counts those from others than the client whose id they bear */
+    atomic_ullong *strange; /* counts requests with the id of a client that did not send them */
     const struct endpoint_handler *handler;
 };
 
@@ -84,14 +84,14 @@ static void intake_close(struct intake *intake)
 
 /* Requests wake by the status of their reader. A read condition would do so while DDS still holds
  * the reader's lock, so that taking them costs another sleep, some 8 us. The status tells of new
- * samples only: whoever is woken takes until none is left. */
+ * samples only: the woken thread takes until none is left. */
 static bool intake_attach(const struct intake *intake, dds_entity_t waitset)
 {
     return dds_set_status_mask(intake->reader, DDS_DATA_AVAILABLE_STATUS) == DDS_RETCODE_OK &&
            dds_waitset_attach(waitset, intake->reader, intake->exchange) == DDS_RETCODE_OK;
 }
 
-/* The server that the sample at hand names, and the client whose id it bears. */
+/* The ids of the server and of the client in the sample at hand. */
 static const uint8_t *intake_addressee(const struct intake *intake, const uint8_t **client)
 {
     if (intake->exchange == EXCHANGE_BATCH) {
@@ -136,7 +136,7 @@ static void intake_hand_on(const struct intake *intake, const struct endpoint_ha
         handler->ensemble(handler->context, intake->sample);
 }
 
-/* Decodes and hands on what was taken, if it is due here, and lets go of it. */
+/* Decodes a taken sample, hands it on if it is due here, and releases it. */
 static void intake_serve_one(struct intake *intake, const struct intake_desk *desk,
                              struct ddsi_serdata *taken, dds_instance_handle_t writer, bool alone)
 {
@@ -307,7 +307,7 @@ static void servers_visit(dds_entity_t reader, server_visitor *visitor, void *co
 
 enum { WRITE_ATTEMPTS = 20 };
 
-/* What wakes the reading thread: the kinds of requests, and these. */
+/* Events that wake the reading thread: requests of each kind, and these. */
 enum {
     SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT,
     SOURCE_STOP,
@@ -323,16 +323,16 @@ struct endpoint {
     dds_entity_t participant, waitset, stop, nudge;
     dds_entity_t status_writer, body_writer;
     struct dents_topic dents;
-    struct reply_writers *writers; /* thread-safe, but for what its header says */
+    struct reply_writers *writers; /* thread-safe, with the exceptions that its header names */
     /* of the thread that runs it */
     struct intake intakes[EXCHANGE_COUNT];
     /* of the thread that looks for other servers */
-    dds_entity_t servers;  /* the reader of what they announce */
+    dds_entity_t servers;  /* the reader of their announcements */
     atomic_bool stopped;   /* any thread sets it */
-    atomic_ullong strange; /* requests from others than the client whose id they bore */
+    atomic_ullong strange; /* requests with the id of a client that did not send them */
 };
 
-/* The entity, or a fault that says what it was for. */
+/* Whether the entity was created; else the fault names its purpose. */
 static bool created(dds_entity_t entity, const char *what, struct fault *fault)
 {
     if (entity < 0)
@@ -383,7 +383,7 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
     return good;
 }
 
-/* The given id, or one that nobody has. */
+/* The given id, or a random one. */
 static bool adopt_id(struct endpoint *endpoint, const uint8_t *server)
 {
     if (server)
@@ -419,7 +419,7 @@ struct endpoint *endpoint_create(uint32_t domain, const char *partition, const c
                   wire_participant_problem(endpoint->participant));
         goto failed;
     }
-    /* readers, writers, and what wakes the reading thread */
+    /* readers, writers, and the waitset of the reading thread */
     endpoint->writers = reply_writers_create(endpoint->participant, partition, clients, fault);
     if (!endpoint->writers || !open_intakes(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
@@ -465,11 +465,11 @@ static void tell_alive(struct endpoint *endpoint, const struct endpoint_handler 
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler)
 {
     bool ready[SOURCE_COUNT] = {false};
-    bool left = false; /* requests that no wake-up will tell of */
+    bool left = false; /* requests are left, without a further wake-up */
     struct intake_desk desk = {endpoint->server, reply_writers_owners(endpoint->writers),
                                &endpoint->strange, handler};
     while (!atomic_load(&endpoint->stopped)) {
-        /* who has something, since the last time or now */
+        /* sources with events, left from the last time or new */
         dds_attach_t woken[SOURCE_COUNT];
         dds_return_t count =
             dds_waitset_wait(endpoint->waitset, woken, SOURCE_COUNT, left ? 0 : DDS_INFINITY);

@@ -14,8 +14,9 @@
 
 struct endpoint;
 
-/* What happens with arriving samples, all in the thread of endpoint_run. The samples are borrowed.
- * `alone`: no other request came with this one, so there is time to answer it on the spot. */
+/* Functions for arriving samples, all called in the thread of endpoint_run. The samples are
+ * borrowed. `alone`: no other request came with this one, so there is time to answer it on the
+ * spot. */
 struct endpoint_handler {
     void *context;
     void (*single)(void *context, const percuss_v1_Request *request, bool alone);
@@ -24,17 +25,17 @@ struct endpoint_handler {
     void (*clear)(void *context,
                   const char *specimen); /* of this server; see endpoint_open_dents */
     presence_function *presence;
-    void (*alive)(void *context); /* after endpoint_nudge; NULL: nobody wants to know */
+    void (*alive)(void *context); /* after endpoint_nudge; may be NULL */
 };
 
-/* Joins the domain: when this returns, requests are received. `partition`: for those in it alone,
- * kept; empty: for those in none. `security`: the folder of its identity (wire_security.h); NULL:
- * without DDS Security. Replies are for at most so many `clients`. `server`: the id to answer
- * under; NULL: it is drawn. NULL with a fault if DDS refuses. */
+/* Joins the domain: when this returns, requests are received. `partition` (borrowed): for clients
+ * in it alone; empty: for clients in none. `security`: the folder of its identity
+ * (wire_security.h); NULL: without DDS Security. Replies are for at most so many `clients`.
+ * `server`: the id to answer under; NULL: it is drawn. NULL with a fault if DDS refuses. */
 struct endpoint *endpoint_create(uint32_t domain, const char *partition, const char *security,
                                  size_t clients, const uint8_t *server, struct fault *fault);
 
-/* Whether that folder has what an identity needs, without joining. False with a fault. */
+/* Whether that folder has the files of an identity, without joining. False with a fault. */
 bool endpoint_check_security(const char *security, struct fault *fault);
 
 /* Leaves the domain. No other thread may be using the endpoint. */
@@ -47,7 +48,7 @@ const uint8_t *endpoint_server(const struct endpoint *endpoint);
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler);
 void endpoint_stop(struct endpoint *endpoint);
 
-/* Wakes the thread of endpoint_run, which says that it is alive. Any thread. */
+/* Wakes the thread of endpoint_run, which then calls handler->alive. Any thread. */
 void endpoint_nudge(struct endpoint *endpoint);
 
 /* Wakes threads of DDS that sleep until a time that was set back (wire_clock.h). Any thread. */
@@ -64,7 +65,7 @@ enum delivery endpoint_publish(struct endpoint *endpoint, const uint8_t client[1
 /* Requests since the last call that bore the id of another client and were ignored. Thread-safe. */
 unsigned long long endpoint_strange(struct endpoint *endpoint);
 
-/* Waits until the clients have what was written, at most `seconds`. */
+/* Waits until the clients have all written samples, at most `seconds`. */
 void endpoint_flush(struct endpoint *endpoint, double seconds);
 
 /* Number of clients that read replies. Thread-safe. */
@@ -78,7 +79,7 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
 /* Opens the topic of specimens; before endpoint_run. False with a fault. */
 bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault);
 
-/* What is told of a specimen. */
+/* An announcement of a specimen. */
 struct dents_notice {
     const char *specimen, *body;
     uint64_t impacts;

@@ -15,7 +15,7 @@ struct letter {
     void *sample;
 };
 
-/* Those of one writer, who has some. */
+/* The samples of one writer, at least one. */
 struct pile {
     struct key_node node; /* key: the writer */
     TAILQ_ENTRY(pile) turn;

@@ -9,7 +9,7 @@
 
 #include "exchange/key_map.h"
 
-/* Clients for which the map is laid out, and writers whose participant is remembered. */
+/* Expected number of clients, and number of writers with a remembered participant. */
 enum { EXPECTED = 1024, REMEMBERED = 256 };
 
 /* A participant that reads a client's replies. */
@@ -25,7 +25,7 @@ struct owned {
     TAILQ_HEAD(holder_list, holder) holders; /* in the order in which they came; never empty */
 };
 
-/* A writer's handle never comes again, whoever follows. */
+/* A writer's handle is never used again. */
 struct writer {
     dds_instance_handle_t handle; /* 0: none */
     struct digest participant;
@@ -70,7 +70,7 @@ void owners_free(struct owners *owners)
 
 struct digest owners_participant(struct digest guid)
 {
-    /* RTPS 9.3.1: twelve octets are the participant's, four name what it has */
+    /* RTPS 9.3.1: twelve octets name the participant, four its entity */
     enum { OWN = 12 };
     uint8_t octets[16];
     memcpy(octets, &guid, sizeof octets);

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A client's id belongs to the DDS participant whose reader of its replies came first, for as long
- * as it has one: requests that bear the id and come from another participant are not the client's.
- * One thread only. */
+/* A client's id belongs to the first DDS participant with a reader of its replies, for as long as
+ * it has one: requests that bear the id and come from another participant are not the client's. One
+ * thread only. */
 #ifndef PERCUSS_ENDPOINT_OWNERS_H
 #define PERCUSS_ENDPOINT_OWNERS_H
 
@@ -25,11 +25,11 @@ struct digest owners_participant(struct digest guid);
 bool owners_add(struct owners *owners, const uint8_t client[16], struct digest participant);
 void owners_remove(struct owners *owners, const uint8_t client[16], struct digest participant);
 
-/* Whether the participant may use the id: it is its own, or nobody's. */
+/* Whether the participant may use the id: it owns the id, or no participant does. */
 bool owners_allow(const struct owners *owners, const uint8_t client[16], struct digest participant);
 
-/* The same for the participant of a writer that `reader` has a sample of. One that has gone without
- * ever being asked about is a stranger. */
+/* The same for the participant of a writer that `reader` has a sample of. A writer that has gone
+ * and is not remembered is a stranger. */
 bool owners_allow_writer(struct owners *owners, const uint8_t client[16], dds_entity_t reader,
                          dds_instance_handle_t writer);
 

@@ -1,8 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A single reply as bytes to be kept and sent again: its XCDR2 form, as on the wire, little-endian.
- */
+/* A single reply as bytes to be stored and sent again: XCDR2 as on the wire, little-endian. */
 #ifndef PERCUSS_ENDPOINT_REPLY_BYTES_H
 #define PERCUSS_ENDPOINT_REPLY_BYTES_H
 

@@ -34,7 +34,7 @@ static dds_entity_t subscriptions_open(dds_entity_t participant, struct fault *f
     return 0;
 }
 
-/* The client, of those who ask in `partition`, whose replies this partition is for. */
+/* The client, of those that ask in `partition`, that this partition of replies is for. */
 static bool parse_name(const char *name, const char *partition, uint8_t client[16])
 {
     char whole[WIRE_REPLIES_SIZE];
@@ -62,7 +62,7 @@ static bool find_client(const dds_qos_t *qos, const char *partition, uint8_t cli
     return found;
 }
 
-/* Shows the changes since the last call; clients are those who ask in `partition`. */
+/* Shows the changes since the last call; clients are those that ask in `partition`. */
 static void subscriptions_take(dds_entity_t reader, const char *partition,
                                void (*visit)(void *context,
                                              const struct subscription *subscription),
@@ -187,7 +187,7 @@ static unsigned find_channel(const char *topic)
     return i;
 }
 
-/* What a visit of the subscriptions needs. */
+/* The context of a visit of the subscriptions. */
 struct follow {
     struct destinations *destinations;
     struct owners *owners;
@@ -228,7 +228,7 @@ void reply_writers_follow(struct reply_writers *writers, presence_function *pres
     subscriptions_take(writers->source, writers->partition, follow_one, &follow);
 }
 
-/* What became of a sample. Who does not take it is stopped or cut off. */
+/* The outcome of a write. A client that does not take a sample is stopped or cut off. */
 static enum delivery judge(struct reply_writers *writers, const uint8_t client[16],
                            unsigned channel, dds_return_t result)
 {

@@ -20,13 +20,13 @@ struct reply_writers *reply_writers_create(dds_entity_t participant, const char 
                                            size_t clients, struct fault *fault);
 void reply_writers_free(struct reply_writers *writers);
 
-/* Whose the clients' ids are; of the thread of reply_writers_follow. */
+/* The owners of the clients' ids; of the thread of reply_writers_follow. */
 struct owners *reply_writers_owners(const struct reply_writers *writers);
 
 /* The reader of subscriptions, to wait on. */
 dds_entity_t reply_writers_source(const struct reply_writers *writers);
 
-/* Told what has become of a reader of replies of this client. */
+/* Receives the change of a reader of this client's replies. */
 enum presence {
     READER_COME,
     READER_GONE,
