@@ -20,7 +20,7 @@
 #include "exchange/question.h"
 #include "respond/parallel.h"
 
-/* From a request to an ensemble whose samples can be solved. */
+/* From a request to an ensemble that can be solved. */
 
 struct ensemble_prepared {
     struct decoded_ensemble *decoded;
@@ -28,7 +28,7 @@ struct ensemble_prepared {
     struct table_maker maker; /* of tables that are asked for; only finds them afterwards */
 };
 
-/* Fills what is zeroed; to be released whatever it returns. TIMEOUT: the watch stopped it. */
+/* Fills a zeroed structure, to be released after a failure too. TIMEOUT: the watch stopped it. */
 static enum percuss_status ensemble_prepare(struct ensemble_prepared *prepared,
                                             const struct ensemble_means *means,
                                             const struct ensemble_question *question,
@@ -56,7 +56,7 @@ static enum percuss_status ensemble_prepare(struct ensemble_prepared *prepared,
     /* why it was given up */
     if (prepared->maker.status)
         return fault_set(fault, prepared->maker.status, "%s", prepared->maker.fault.text);
-    /* computing a table is for a single thread */
+    /* only a single thread may compute a table */
     table_maker_only_finds(&prepared->maker);
     return status;
 }
@@ -67,8 +67,8 @@ static void ensemble_prepared_release(struct ensemble_prepared *prepared)
     free(prepared->decoded);
 }
 
-/* The same for all who solve items of this ensemble alike: a hash of the question, the catalogue,
- * the version, the model that was chosen, and the layout of an item in memory. */
+/* The same in all processes that solve items of this ensemble alike: a hash of the question, the
+ * catalogue, the version, the model that was chosen, and the layout of an item in memory. */
 static struct digest ensemble_prepared_digest(const struct ensemble_prepared *prepared,
                                               const struct ensemble_question *question)
 {
@@ -93,16 +93,16 @@ static struct digest ensemble_prepared_digest(const struct ensemble_prepared *pr
 
 enum { MOST_WORKERS = 64 };
 
-/* Between two looks at those who wait, where others solve the samples, s. */
+/* Time between two reports of progress where others solve the samples, s. */
 static const double TELLING = 0.1;
 
-/* Of the thread that runs it, but for what the workers are given. */
+/* Of the thread that runs it, except for the members that the workers are given. */
 struct ensemble_run {
     const struct ensemble_means *means;
     const struct ensemble_question *question;
     const percuss_v1_EnsembleRequest *request;
     double deadline; /* monotonic, s; INFINITY: none */
-    double limit;    /* likewise: till when it is given time */
+    double limit;    /* likewise: the end of the server's time for it */
     struct ensemble_prepared prepared;
     unsigned worker_count;
     struct ensemble_worker *workers[MOST_WORKERS]; /* each of one thread */
@@ -113,12 +113,12 @@ struct ensemble_run {
     unsigned seen;     /* of them */
     bool in_extras;
     bool gone;                   /* its client */
-    double noticed;              /* monotonic, s: when those who wait heard last */
+    double noticed;              /* monotonic, s: of the last report of progress */
     atomic_bool stopped;         /* the workers are to give up */
     struct ensemble_range asked; /* of others, as the next two */
-    bool *taken;                 /* which of its items are there */
-    uint64_t prefix;             /* all before this one are */
-    enum percuss_status cut;     /* what cut it short, for a reply without samples; OK: nothing */
+    bool *taken;                 /* which of its items have arrived */
+    uint64_t prefix;             /* all before this one have */
+    enum percuss_status cut;     /* reason of an early end, for a reply without samples; OK: none */
     char message[160];           /* of that */
 };
 
@@ -159,7 +159,7 @@ cut_short(struct ensemble_run *run, enum percuss_status status, const char *form
     run->cut = status;
 }
 
-/* Whether anybody still wants the rest; whoever has left does not, even if he is back. */
+/* Whether the client still wants the rest; one that has left does not, even if it is back. */
 static bool is_wanted(struct ensemble_run *run)
 {
     enum ensemble_wish wish = run->means->wish(run->means->context);
@@ -193,7 +193,7 @@ static bool choice_goes_on(void *context, double done)
 static bool samples_go_on(void *context, uint64_t done)
 {
     struct ensemble_run *run = context;
-    /* it lives by those it waits for */
+    /* the workers' progress is that of the ensemble */
     unsigned moves = atomic_load(&run->moves);
     if (moves != run->seen)
         beat(run);
@@ -203,7 +203,7 @@ static bool samples_go_on(void *context, uint64_t done)
     return !atomic_load(&run->stopped);
 }
 
-/* Within a sample, which may take a second: what that thread has found. */
+/* Within a sample, which may take a second: the decision of samples_go_on. */
 static bool sample_goes_on(void *context, double done)
 {
     struct ensemble_run *run = context;
@@ -241,11 +241,11 @@ static bool work_on_extra(void *context, unsigned thread, uint64_t item)
 /* From the wire to an ensemble that is ready to run. */
 static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
 {
-    /* until when */
+    /* the end of its time */
     double seconds = run->request->scene.options.deadline;
     run->deadline = seconds > 0.0 ? run->question->arrival + seconds : INFINITY;
     run->limit = clock_now() + run->means->limit;
-    /* what of, while somebody wants it */
+    /* the ensemble, while the client wants it */
     const struct watch watch = {choice_goes_on, run};
     enum percuss_status status =
         is_wanted(run) ? ensemble_prepare(&run->prepared, run->means, run->question, &watch, fault)
@@ -302,7 +302,7 @@ struct digest ensemble_run_digest(const struct ensemble_run *run)
     return ensemble_prepared_digest(&run->prepared, run->question);
 }
 
-/* Has others solve a range; returns how far all of it is there. */
+/* Has others solve a range; returns the first item that has not arrived. */
 static uint64_t share_out(struct ensemble_run *run, const struct ensemble_range *range)
 {
     run->asked = *range;
@@ -318,7 +318,7 @@ static uint64_t share_out(struct ensemble_run *run, const struct ensemble_range 
     return run->prefix;
 }
 
-/* Items of a range, by others or by threads here; returns how far all are solved. */
+/* Items of a range, by others or by threads here; returns the first item that is not solved. */
 static uint64_t solve_range(struct ensemble_run *run, const struct ensemble_range *range)
 {
     if (run->means->share)
@@ -331,7 +331,7 @@ static uint64_t solve_range(struct ensemble_run *run, const struct ensemble_rang
     return parallel_run(&loop);
 }
 
-/* Solves samples until there are all, or enough, or nobody wants more. */
+/* Solves samples until all are solved, or enough, or it must end early. */
 static void solve_samples(struct ensemble_run *run)
 {
     bool wanted = is_wanted(run);
@@ -369,14 +369,14 @@ static bool solve_extras(struct ensemble_run *run)
     return true;
 }
 
-/* The reply on what was solved. */
+/* The reply on the solved samples. */
 static struct answer *report_samples(struct ensemble_run *run, const struct envelope *envelope)
 {
     const struct watch watch = {words_go_on, run};
     const struct report_material material = {run->done, run->samples, run->extras};
     struct ensemble_report results;
     bool good = report_create(&results, &run->prepared.ensemble, &material, &watch);
-    /* that too may have been cut short */
+    /* the report too may have been cut short */
     bool cut = run->cut != PERCUSS_OK;
     char message[256] = "";
     if (cut)
@@ -387,7 +387,7 @@ static struct answer *report_samples(struct ensemble_run *run, const struct enve
     if (good)
         answer = encode_ensemble(envelope, &run->prepared.ensemble, &results, &ending);
     if (answer)
-        answer->passing = cut; /* asked again there may be more */
+        answer->passing = cut; /* the same request may get more samples later */
     report_release(&results);
     return answer;
 }
@@ -405,13 +405,13 @@ static struct answer *carry_out(struct ensemble_run *run)
 {
     const struct envelope *envelope = &run->question->envelope;
     struct fault fault = {""};
-    /* the model that all samples share, and who solves them */
+    /* the model that all samples share, and the workers */
     enum percuss_status status = prepare(run, &fault);
     if (!status)
         status = create_workers(run, &fault);
     if (status)
         return refuse(envelope, status, fault.text);
-    /* the samples, and what they say */
+    /* the samples, and the reply on them */
     tell_progress(run, 0);
     solve_samples(run);
     bool good = solve_extras(run);
@@ -424,7 +424,7 @@ static struct answer *carry_out(struct ensemble_run *run)
             run->means->list(run->means->context, &run->prepared.ensemble, run->samples, run->done);
     if (good && !run->gone)
         return answer;
-    /* who has come back meanwhile hears of his leaving; nobody else does */
+    /* a client that has come back meanwhile gets the refusal */
     answer_release(answer);
     return good ? refuse(envelope, PERCUSS_TIMEOUT, ENSEMBLE_CLIENT_GONE)
                 : refuse(envelope, PERCUSS_INTERNAL, "out of memory");
@@ -452,7 +452,7 @@ struct answer *ensemble_answer(const struct ensemble_means *means,
     run->request = question->request;
     struct answer *answer = carry_out(run);
     release(run);
-    /* how long it waited, and took */
+    /* its times of waiting and solving */
     if (answer) {
         answer->report->timing.queue = start - question->arrival;
         answer->report->timing.solve = clock_now() - start;

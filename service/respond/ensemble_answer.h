@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One ensemble answered: decoded, its samples solved by several threads, and reported. */
+/* An ensemble answered: decoded, its samples solved by threads or processes, and reported. */
 #ifndef PERCUSS_RESPOND_ENSEMBLE_ANSWER_H
 #define PERCUSS_RESPOND_ENSEMBLE_ANSWER_H
 
@@ -14,8 +14,8 @@
 /* Whether its client wants the rest of it. */
 enum ensemble_wish {
     ENSEMBLE_WANTED,
-    ENSEMBLE_CANCELLED, /* what is solved by now is enough */
-    ENSEMBLE_GONE       /* nobody is there any more */
+    ENSEMBLE_CANCELLED, /* the samples solved by now are enough */
+    ENSEMBLE_GONE       /* the client has gone */
 };
 
 /* Some of the samples, or of the extras to samples 0 .. done - 1 (ensemble/extras.h): items first
@@ -26,21 +26,21 @@ struct ensemble_range {
     uint64_t first, end;
 };
 
-struct ensemble_run; /* one that is under way */
+struct ensemble_run; /* an ensemble while it is answered */
 
-/* What it is answered by. The functions are called in the thread of ensemble_answer, but for
- * `beat`, and none may be NULL but that and `share`. */
+/* The means to answer it. The functions are called in the thread of ensemble_answer, except `beat`;
+ * only `beat` and `share` may be NULL. */
 struct ensemble_means {
     const struct snapshot *snapshot;
     struct table_wait tables;
     double limit;          /* of the time for one request, s */
-    unsigned most_samples; /* that may be asked for */
+    unsigned most_samples; /* allowed in a request */
     unsigned workers;      /* threads */
-    int nice;              /* of theirs */
-    void (*beat)(void);    /* it moves, or a worker does */
-    /* looked at about ten times a second */
+    int nice;              /* of the threads */
+    void (*beat)(void);    /* progress of it or of a worker */
+    /* called about ten times a second */
     enum ensemble_wish (*wish)(void *context);
-    /* How far it is, as often; `progress` NULL: the model is chosen, once a second. */
+    /* Its progress, as often; `progress` NULL: the model is chosen, once a second. */
     void (*progress)(void *context, uint64_t done, uint64_t samples,
                      const struct report_progress *progress);
     /* The first `done` samples, where they are to be listed. False: out of memory. */
@@ -58,45 +58,43 @@ struct ensemble_question {
     double arrival;           /* monotonic, s */
 };
 
-/* What is said where nobody is there any more. */
+/* The message to a client that had gone. */
 #define ENSEMBLE_CLIENT_GONE "the client had gone: ask again"
 
-/* The reply, whatever it says; NULL: out of memory. It ends early, with the samples solved so far,
- * when it is cancelled or its deadline passes, and without any when its client is gone. */
+/* The reply, a refusal included; NULL: out of memory. It ends early, with the samples solved so
+ * far, when it is cancelled or its deadline passes, and without any when its client is gone. */
 struct answer *ensemble_answer(const struct ensemble_means *means,
                                const struct ensemble_question *question);
 
 /* Whether the items of a range are among those that `share` was asked for last. */
 bool ensemble_asks_for(const struct ensemble_run *run, const struct ensemble_range *range);
 
-/* Takes items that `share` was asked for: struct ensemble_sample or struct ensemble_extra,
- * range->end
- * - range->first of them. Of the thread of ensemble_answer. False: no more are wanted. */
+/* Takes range->end - range->first items that `share` was asked for: struct ensemble_sample or
+ * struct ensemble_extra. Of the thread of ensemble_answer. False: no more are wanted. */
 bool ensemble_take(struct ensemble_run *run, const struct ensemble_range *range, const void *items);
 
-/* What those who share the samples of an ensemble must agree in, known once `share` is called. */
+/* A hash that is the same in all processes that share the samples, known once `share` is called. */
 struct digest ensemble_run_digest(const struct ensemble_run *run);
 
-/* Solver of items of an ensemble for another one, in whatever process: item i is a function of the
- * request and of i alone. One thread. */
+/* A solver of some items of an ensemble, in any process: item i is a function of the request and of
+ * i alone. One thread. */
 struct ensemble_part;
 
-/* Chooses the model, as everybody does who shares the ensemble. Of the means snapshot, tables,
- * limit and most_samples count; means and question are borrowed until it is freed. Status and fault
- * as of the ensemble; *part is NULL then. */
+/* Chooses the model, as all processes that share the ensemble do. Of the means it uses snapshot,
+ * tables, limit and most_samples; means and question are borrowed until it is freed. Status and
+ * fault as of the ensemble; *part is NULL then. */
 enum percuss_status ensemble_part_create(const struct ensemble_means *means,
                                          const struct ensemble_question *question,
                                          struct ensemble_part **part, struct fault *fault);
 void ensemble_part_free(struct ensemble_part *part); /* NULL is allowed */
 
-/* What all who share it agree in. */
+/* As ensemble_run_digest. */
 struct digest ensemble_part_digest(const struct ensemble_part *part);
 
-/* Number of samples, of extras to that many samples: what ranges may be of. */
+/* Number of items that ranges are of: samples, or extras to `done` samples. */
 uint64_t ensemble_part_items(const struct ensemble_part *part, bool extras, uint64_t done);
 
-/* Solves the range into `items`: room for as many struct ensemble_sample or struct ensemble_extra.
- */
+/* Solves the range into `items`: an array of struct ensemble_sample or ensemble_extra. */
 void ensemble_part_solve(struct ensemble_part *part, const struct ensemble_range *range,
                          void *items);
 

@@ -14,7 +14,7 @@ static const long long WATCH_NANOSECONDS = 100000000;
 
 struct parallel {
     const struct parallel_loop *loop;
-    atomic_ullong next; /* first item nobody has taken */
+    atomic_ullong next; /* first item that no thread has taken */
     atomic_bool stopped;
     pthread_mutex_t lock;
     pthread_cond_t finished;
@@ -43,7 +43,7 @@ static void work_off(struct thread *thread)
                 return;
         }
     }
-    /* what was taken is done */
+    /* its items are done */
     atomic_store(&thread->at, UINT64_MAX);
 }
 
@@ -61,8 +61,8 @@ static void *run(void *argument)
     return NULL;
 }
 
-/* Items below this are all done. Every thread says first how far it is and then takes more, except
- * between taking and saying: the least it has said counts. */
+/* Items below this are all done. Between taking a chunk and storing its first item the `at` of a
+ * thread is an item of its last chunk, which is less: the least counts. */
 static uint64_t done_by_all(const struct parallel *parallel, struct thread *threads, unsigned count)
 {
     uint64_t least = atomic_load(&parallel->next);
@@ -73,7 +73,7 @@ static uint64_t done_by_all(const struct parallel *parallel, struct thread *thre
     return least < parallel->loop->end ? least : parallel->loop->end;
 }
 
-/* Until all threads have ended. */
+/* Waits until all threads have ended, and calls the watch meanwhile. */
 static void attend(struct parallel *parallel, struct thread *threads, unsigned count)
 {
     struct timespec wake;
@@ -119,7 +119,7 @@ uint64_t parallel_run(const struct parallel_loop *loop)
 {
     struct parallel parallel = {.loop = loop};
     struct thread threads[MOST_THREADS];
-    /* what the threads share */
+    /* the state that the threads share */
     pthread_condattr_t monotonic;
     atomic_init(&parallel.next, loop->first);
     atomic_init(&parallel.stopped, false);

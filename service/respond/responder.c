@@ -48,7 +48,7 @@ static enum percuss_status check_deadline(const struct question *question, const
                      when, passed);
 }
 
-/* Whose state it is: a body with other parameters has other states. */
+/* The name of the body that has a state: a body with other parameters has other states. */
 struct subject_name {
     char text[TOKEN_BODY_SIZE];
 };
@@ -61,7 +61,7 @@ static struct token_subject subject_of(const struct question *question, size_t i
     COPY_TEXT(name->text, body->id);
     if (body->overrides._length == 0)
         return subject;
-    /* and what the overrides say, whatever their number */
+    /* and a hash of the overrides, of any number */
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < body->overrides._length; i++) {
         hash_number(&hasher, body->overrides._buffer[i].parameter);
@@ -73,7 +73,7 @@ static struct token_subject subject_of(const struct question *question, size_t i
     return subject;
 }
 
-/* Whether a question is to be answered, and if not, what it is refused with. */
+/* Whether a question is to be answered, and if not, the refusal. */
 struct inquiry {
     const struct respond_means *means;
     const struct question *question;
@@ -102,7 +102,7 @@ static bool still_wanted(struct inquiry *inquiry, const char *when)
     return inquiry->status == PERCUSS_OK;
 }
 
-/* What a solve asks now and then. */
+/* Called by the solve now and then; false stops it. */
 static bool goes_on(void *context, double done)
 {
     struct inquiry *inquiry = context;
@@ -118,7 +118,7 @@ static struct answer *refuse(const struct inquiry *inquiry)
     return encode_refusal(&inquiry->question->envelope, inquiry->status, inquiry->fault.text);
 }
 
-/* What keeps a specimen outlives the solve. */
+/* The owner of a specimen keeps it until the solve has ended. */
 static enum percuss_status hold_specimen(const struct question *question, size_t index,
                                          struct solve_body *body, struct fault *fault)
 {
@@ -203,10 +203,10 @@ static struct answer *compute(struct responder *responder, const struct question
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &responder->result;
     struct inquiry inquiry = {&responder->means, question, clock_now(), PERCUSS_OK, {""}};
-    /* nobody may want it any more */
+    /* the client may want it no more */
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
-    /* the solve, as long as somebody does */
+    /* the solve, as long as it does */
     const struct solve_means means = {
         question->snapshot->set,
         table_maker_begin(&responder->maker, question->snapshot->tables, question->request,

@@ -30,7 +30,7 @@ struct setting {
     enum kind kind;
     size_t offset;
     double low, high;
-    const char *otherwise; /* where the key is absent; NULL: what settings_default says */
+    const char *otherwise; /* where the key is absent; NULL: the value of settings_default */
     const char *meaning;
 };
 
@@ -128,7 +128,7 @@ struct settings settings_default(void)
     };
 }
 
-/* What a value may be, in words that follow "must be". */
+/* The allowed values, in words that follow "must be". */
 struct allowed {
     char text[96];
 };
@@ -347,7 +347,7 @@ static enum percuss_status read_document(FILE *file, const char *path, struct se
     enum percuss_status status = PERCUSS_OK;
     if (!yaml_parser_initialize(&parser))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    /* YAML, or the line where it is none */
+    /* the document, or the line of its error */
     yaml_parser_set_input_file(&parser, file);
     if (!yaml_parser_load(&parser, &document)) {
         status = fault_set(fault, PERCUSS_BAD_REQUEST, "%s:%zu: must be valid YAML: %s",

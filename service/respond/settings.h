@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the daemon can be told in its configuration file; config/percussd.yaml explains each key. Of
- * these, a solver in a program heeds what its answers depend on. */
+/* The settings of the daemon's configuration file; config/percussd.yaml explains each key. A solver
+ * in a program uses those that its answers depend on. */
 #ifndef PERCUSS_RESPOND_SETTINGS_H
 #define PERCUSS_RESPOND_SETTINGS_H
 
@@ -32,7 +32,7 @@ struct settings {
     char tables[SETTINGS_FOLDERS_MOST][SETTINGS_PATH_SIZE]; /* folders of contact tables, up to the
                                                                first empty one; none: no tables */
     bool tables_alone; /* neither the shipped tables nor those of one's own beside them */
-    bool shipped;      /* nobody named a file of settings: these are those that ship */
+    bool shipped;      /* no file of settings was named: these are the shipped ones */
     char bodies[SETTINGS_PATH_SIZE];   /* folder of reduced bodies; empty: none */
     double bodies_days;                /* that one stays there unused */
     char security[SETTINGS_PATH_SIZE]; /* folder of its identity; empty: without DDS Security */
@@ -49,7 +49,7 @@ struct settings {
     char store[SETTINGS_PATH_SIZE];  /* empty: no specimens */
     char backup[SETTINGS_PATH_SIZE]; /* of the store; empty: none */
     unsigned stored_replies;
-    char standby[SETTINGS_PATH_SIZE]; /* whose lock says which daemon answers; empty: this one */
+    char standby[SETTINGS_PATH_SIZE]; /* the daemon with its lock answers; empty: this one */
     char metrics[SETTINGS_PATH_SIZE]; /* file for a monitoring system; empty: none */
     double session_minutes;
     double drain_seconds;
@@ -60,8 +60,8 @@ struct settings {
 /* The defaults; as many workers as processors. */
 struct settings settings_default(void);
 
-/* Reads a file over what `settings` holds: PERCUSS_OK, or PERCUSS_BAD_REQUEST with "FILE:LINE: KEY:
- * VALUE: must be ...". A relative path in it starts from the file's folder. */
+/* Reads a file over the values of `settings`: PERCUSS_OK, or PERCUSS_BAD_REQUEST with "FILE:LINE:
+ * KEY: VALUE: must be ...". A relative path in it starts from the file's folder. */
 enum percuss_status settings_load(const char *path, struct settings *settings, struct fault *fault);
 
 /* A key for the reference, docs/settings.md. */

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What requests are answered from: a loaded catalogue, and the contact tables. A reload makes a new
- * snapshot; jobs that have begun keep theirs. All snapshots share the vibration of blocks and
- * cylinders (model/ritz_store.h). */
+/* The data that requests are answered from: a loaded catalogue, and the contact tables. A reload
+ * makes a new snapshot; jobs that have begun keep theirs. All snapshots share the vibration of
+ * blocks and cylinders (model/ritz_store.h). */
 #ifndef PERCUSS_RESPOND_SNAPSHOT_H
 #define PERCUSS_RESPOND_SNAPSHOT_H
 

@@ -57,7 +57,7 @@ void table_folders_find(struct table_folders *folders, const struct settings *se
         add_folder(folders, settings->tables[i]);
     if (folders->count == 0 || settings->tables_alone)
         return;
-    /* what stands beside them */
+    /* the folders beside them */
     if (folder_own_tables(own, sizeof own) && access(own, F_OK) == 0)
         add_folder(folders, own);
     char *shipped = shipped_find("tables");
@@ -92,8 +92,8 @@ static void load_all(struct table_cache *cache, const struct table_folders *fold
         tell(cache, false, "tables: none in the settings: metals yield by the closed form");
 }
 
-/* Where tables that are computed on request go: to the first folder of settings that somebody gave,
- * if it can be written, or to those of one's own. */
+/* The folder for tables that are computed on request: the first one of given settings, if it can be
+ * written, or that of the user's own tables. */
 static void choose_keep(struct table_cache *cache, const struct settings *settings)
 {
     const char *first = settings->tables[0];
@@ -120,8 +120,9 @@ static char *quote(const char *path)
     return word;
 }
 
-/* What makes tables that this finds at its next start: into the folder of one's own where that
- * counts, or the first one of the settings. Whole paths: who reads it may be elsewhere. */
+/* The command that makes tables for the next start: in the folder of the user's own tables where
+ * that counts, or the first one of the settings. With whole paths: the reader may be in another
+ * folder. */
 static void advise(struct table_cache *cache, const struct settings *settings)
 {
     const char *first = settings->tables[0];

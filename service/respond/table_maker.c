@@ -10,13 +10,13 @@
 #include "fe/indentation.h"
 #include "store/table_key.h"
 
-/* How deep tables made here go: fixed, so that the table does not depend on who asks first. */
+/* How deep tables made here go: fixed, so that the table does not depend on the first request. */
 static const double COVERED_SPEED = 1.0;
 
-/* Between two looks whether it is its turn: short against the time that a table takes. */
+/* Pause between two looks for its turn: short against the time that a table takes. */
 static const long TURN_NANOSECONDS = 20000000;
 
-/* Asked by the computation; false stops it. */
+/* Called by the computation; false stops it. */
 static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
@@ -50,8 +50,8 @@ static double thread_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Until nobody else computes a table, which may be the very one. False: nobody waits for this one
- * any more. */
+/* Waits until no other thread computes a table, which may be the same one. False: this one is not
+ * wanted any more. */
 static bool await_turn(struct table_maker *maker)
 {
     while (atomic_exchange(&maker->cache->making, true)) {
@@ -66,7 +66,7 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
                                          const struct material *b)
 {
     struct region_input input = table_input(a, b, COVERED_SPEED);
-    /* the table, as long as somebody wants it */
+    /* the table, as long as it is wanted */
     struct watch watch = {go_on, maker};
     struct indentation_table table;
     struct fault fault;
@@ -74,12 +74,12 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
     enum percuss_status status = indentation_table_make(&input, &watch, &table, &fault);
     if (maker->wait.ended)
         maker->wait.ended(maker->wait.context, maker);
-    /* for all who ask from now on */
+    /* for all requests from now on */
     if (!status) {
         status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);
         indentation_table_free(&table);
     }
-    /* nobody gave it up, so it failed */
+    /* it was not given up, so it failed */
     if (status && !maker->status)
         maker->status = fault_set(&maker->fault, PERCUSS_INTERNAL,
                                   "the contact table of %s on %s could not be computed: %.300s",
