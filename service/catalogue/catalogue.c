@@ -278,7 +278,7 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
                          reader_excerpt(value).text, names_list(&materials->names).text);
 }
 
-/* What its keys do not say: the material's numbers, and a file with all that follows. */
+/* The rest of a body: the material's numbers, and its file. */
 static enum percuss_status read_rest(struct reader *reader, struct entry entry,
                                      const struct materials *materials, struct mesh_files *files,
                                      struct body_set *set, struct body *body)
@@ -307,7 +307,7 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
 {
     memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, body->id);
-    /* its kind first, which says what other keys there are */
+    /* its kind first, which decides the other keys */
     enum percuss_status status = read_kind(reader, entry, body);
     if (status)
         return status;
@@ -318,7 +318,7 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
         status = read_rest(reader, entry, materials, files, set, body);
     if (status)
         return status;
-    /* what follows from them, if they make a body already */
+    /* the derived numbers, unless the mesh is still to be reduced */
     if (is_ordered(body)) {
         reader_leave(reader, mark);
         return PERCUSS_OK;
@@ -345,12 +345,12 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
         return out_of_memory(reader->name, reader->fault);
     struct mesh_files files = {NULL};
     for (size_t i = 0; !status && i < count; i++) {
-        /* counted with what it owns, whether it is accepted or not */
+        /* counted even if it is refused: the set frees its memory */
         set->bodies[set->count++] =
             (struct body){.tip_radius = INFINITY, .loss_factor = NAN, .yield_unstated = true};
         struct body *body = &set->bodies[set->count - 1];
         status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set, body);
-        /* what is not there yet is no body of the set */
+        /* a body that is not reduced yet is not in the set */
         if (!status && is_ordered(body)) {
             free(body->sites);
             free(body->damping_shares);
@@ -470,7 +470,7 @@ static void hash_doubles(struct hash *hash, const double *values, size_t count)
         hash_double(hash, values[i]);
 }
 
-/* A file by what it was made from, and what the catalogue says of it. */
+/* A file by its origin, and the catalogue's keys of it. */
 static void hash_mesh(struct hash *hash, const struct body *body)
 {
     hash_text(hash, body->mesh->hash);
@@ -528,8 +528,8 @@ static int by_id(const void *a, const void *b)
 }
 
 /* Writes set->revision: 32 hexadecimal digits, a hash of the bodies (ids, shapes, all numbers'
- * bits, materials in use) and of the contact's settings, whatever the order of the bodies and the
- * look of the file. PERCUSS_OK or PERCUSS_INTERNAL without memory. */
+ * bits, materials in use) and of the contact's settings, independent of the order of the bodies and
+ * the layout of the file. PERCUSS_OK or PERCUSS_INTERNAL without memory. */
 static enum percuss_status revision_write(struct body_set *set, struct fault *fault)
 {
     /* by id, wherever in the file they stand */
@@ -569,11 +569,11 @@ static enum percuss_status load_document(const char *text, size_t size, const ch
     return loaded ? PERCUSS_OK : out_of_memory(name, fault);
 }
 
-/* What is made of a document. */
+/* The product of a document. */
 struct product {
     struct body_set *set;
     const char *folder; /* of reduced bodies; NULL: none */
-    bool lenient;       /* with bodies whose files lack */
+    bool lenient;       /* a body without its file becomes an order */
     const char *name;   /* of the material wanted; NULL: the whole set is */
     struct material *material;
 };
@@ -605,7 +605,7 @@ static enum percuss_status parse(const char *text, size_t size, const char *name
     return status;
 }
 
-/* Numbers have a point in every country, in the file and in messages. */
+/* Numbers have a decimal point in every locale, in the file and in messages. */
 static enum percuss_status parse_plainly(const char *text, size_t size, const char *name,
                                          const struct product *product, struct fault *fault)
 {

@@ -19,10 +19,10 @@ enum { CATALOGUE_MAX_BYTES = 16 * 1024 * 1024 };
  * be read or accepted, PERCUSS_INTERNAL without memory. */
 enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault);
 
-/* The same for a daemon, which answers about what is there. Bodies may be given as meshes: they are
- * taken from the folder of reduced bodies, and those that it lacks become orders of the set, all of
- * them if the folder is empty text; without one (NULL) meshes are refused. A body whose own file is
- * not there becomes an order that is `missing`. */
+/* The same for a daemon, which answers about the bodies that are there. Bodies may be given as
+ * meshes: they are taken from the folder of reduced bodies, and those that it lacks become orders
+ * of the set, all of them if the folder is empty text; without one (NULL) meshes are refused. A
+ * body without its own file becomes an order that is `missing`. */
 enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
                                             struct body_set **set, struct fault *fault);
 

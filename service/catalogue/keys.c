@@ -68,7 +68,7 @@ static bool read_shear(const yaml_node_t *value, const struct key *key, struct b
     return read_number(value, key, &body->shear_number);
 }
 
-/* Infinite where it is said that there is none, as where nothing is said. */
+/* Infinite where it is `none`, and where the key is absent. */
 static bool read_yield(const yaml_node_t *value, const struct key *key,
                        struct stated_material *stated)
 {
@@ -182,7 +182,7 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
 {
     char *field = (char *)object + key->offset;
     bool good = true;
-    /* by type: where the value is not one, what is allowed is said below */
+    /* by type; a bad value is refused below */
     switch (key->type) {
     case KEY_NUMBER:
         good = read_number(value, key, field);
@@ -239,7 +239,7 @@ static enum percuss_status refuse_key(const struct reader *reader, const yaml_no
                          reader_excerpt(key).text, table->owner, key_list(table).text);
 }
 
-/* Of keys that stand instead of each other there must be one. */
+/* Exactly one of several alternative keys must be there. */
 static enum percuss_status check_instead(struct reader *reader, struct entry entry,
                                          const struct key_table *table, const struct key *key)
 {
@@ -263,7 +263,7 @@ static enum percuss_status check_instead(struct reader *reader, struct entry ent
                          names[count - 1], table->owner);
 }
 
-/* Whether the mapping has what the table's keys ask for. */
+/* Whether the mapping has the keys that the table requires. */
 static enum percuss_status check_required(struct reader *reader, struct entry entry,
                                           const struct key_table *table)
 {

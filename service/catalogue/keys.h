@@ -22,7 +22,7 @@ extern const struct key_table keys_material; /* into struct stated_material */
 extern const struct key_table keys_body; /* into struct body: those of every kind, shape first */
 
 extern const struct key_table keys_site; /* of a mesh, see mesh_entry.c */
-extern const struct key_table keys_own;  /* the same of kinds whose file brings their material */
+extern const struct key_table keys_own;  /* the same of kinds with a material in their file */
 
 /* Reads a whole mapping (entry.value) into `object`: every entry must be a key of the table and
  * stand once, every required key must be there; absent ones leave their field as it is. PERCUSS_OK

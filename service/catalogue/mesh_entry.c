@@ -60,8 +60,8 @@ void mesh_files_free(struct mesh_files *files, const struct body_set *set)
     files->paths = NULL;
 }
 
-/* From the folder of the catalogue's file, else from what ships with the program: catalogues are
- * copied, and their files left behind. For free(); NULL: out of memory. */
+/* From the folder of the catalogue's file, else from the shipped files: catalogues are copied
+ * without their files. For free(); NULL: out of memory. */
 static char *resolve(const struct reader *reader, const char *file)
 {
     const char *slash = strrchr(reader->name, '/');
@@ -111,7 +111,7 @@ static enum percuss_status read_file(struct reader *reader, const yaml_node_t *v
             free(path);
             return PERCUSS_OK;
         }
-    /* or read, with what a search on its surface needs */
+    /* or read, and prepared for searches on its surface */
     enum percuss_status status = body_file_read(path, &mesh, &fault);
     if (status) {
         free(path);
@@ -276,7 +276,7 @@ enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
     reader_leave(reader, mark);
     if (!body->mesh)
         return sites ? read_sites(reader, sites, body) : PERCUSS_OK;
-    /* one material may stand for another, all of a body's not */
+    /* a catalogue's material replaces a single one of the file, not several */
     if (material && !is_mesh && body->mesh->material_count > 1)
         return reader_refuse(reader, material,
                              "material: must be absent: the file holds %zu materials of its own",

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a catalogue says of a body from a mesh besides its keys: its file, and places with names. */
+/* The entry of a body from a mesh in a catalogue, beside its keys: its file, and named sites. */
 #ifndef PERCUSS_CATALOGUE_MESH_ENTRY_H
 #define PERCUSS_CATALOGUE_MESH_ENTRY_H
 

@@ -14,7 +14,7 @@
 #include "mesh/mesh_digest.h"
 #include "model/key.h"
 
-/* Of what percuss-reduce makes of the same mesh: raise it where that changes. */
+/* Version of percuss-reduce's results: raise it where they change for the same mesh. */
 static const char METHOD[] = "percuss reduced body 2";
 static const double MOST_FREQUENCY = 1e12; /* Hz, as far as percuss-reduce takes it */
 
@@ -104,8 +104,8 @@ enum percuss_status mesh_order_refuse(struct reader *reader, struct entry entry)
     return PERCUSS_OK;
 }
 
-/* The material as a catalogue that holds nothing else: what is reduced later is what is meant now.
- */
+/* The material as a catalogue that holds nothing else, so that a later reduction has its present
+ * numbers. */
 static enum percuss_status add_material(const struct reader *reader, const struct material *from,
                                         struct body_order *order)
 {
@@ -139,7 +139,7 @@ static enum percuss_status write_name(struct reader *reader, const yaml_node_t *
     return status ? reader_refuse(reader, value, "%s", reader_short_name(fault.text)) : PERCUSS_OK;
 }
 
-/* What a failure left in the folder. */
+/* The reason that a failure left in the folder. */
 static void read_reason(const char *folder, const struct body_order *order)
 {
     static const char *const suffixes[] = {"failed", "killed"};
@@ -157,7 +157,7 @@ static void read_reason(const char *folder, const struct body_order *order)
     }
 }
 
-/* A key of its kind, which there is. */
+/* The key of that name, which the kind has. */
 static const struct key *find_key(const struct body_kind *kind, const char *name)
 {
     const struct key *key = kind->keys;
@@ -212,7 +212,7 @@ enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, s
                              "reduced by percussd where its settings name a folder for bodies",
                              reader_excerpt(file).text);
     reader_leave(reader, mark);
-    /* what it is made from */
+    /* its id and options */
     memcpy(order.id, body->id, sizeof order.id);
     enum percuss_status status = body_order_begin(&order)
                                      ? read_options(reader, entry, body, &order)
@@ -221,9 +221,7 @@ enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, s
         status = write_name(reader, file, &order);
     if (!status && asprintf(&reduced, "%s/%s.h5", reader->folder, order.name) < 0)
         status = out_of_memory(reader);
-    /* the set keeps the order with the mesh's path; the caller gets that of the body, if it is
-     * there
-     */
+    /* the set keeps the order with the mesh's path; the caller gets the body's, if it is there */
     if (!status) {
         bool somewhere = reader->folder[0];
         order.made = somewhere && access(reduced, F_OK) == 0;

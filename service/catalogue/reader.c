@@ -144,7 +144,7 @@ enum percuss_status reader_refuse_quantity(const struct reader *reader, const ya
     double number;
     const char *text = is_plain(value) ? (const char *)value->data.scalar.value : "";
     enum units_problem problem = units_read(text, quantity, &number);
-    /* a unit that a mere number does not bear is told with what is allowed */
+    /* a unit on a mere number is refused with the allowed values */
     if (quantity == QUANTITY_NUMBER || (problem != UNITS_UNKNOWN && problem != UNITS_OF_ANOTHER))
         return reader_refuse_value(reader, value, allowed);
     const char *unit = units_number_end(text);

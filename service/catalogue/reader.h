@@ -19,7 +19,7 @@ struct reader {
     yaml_document_t *document;
     const char *name;   /* of the file */
     const char *folder; /* of bodies reduced from meshes; NULL: none */
-    bool lenient;       /* a body whose file is not there is left out, with an order that says so */
+    bool lenient;       /* a body without its file is left out, with an order that says so */
     struct fault *fault;
     char path[256]; /* of the value being read: bodies.al-rod.radius */
 };
@@ -32,8 +32,8 @@ struct entry {
 /* The part of a file's name that messages show. */
 const char *reader_short_name(const char *name);
 
-/* Adds a key, or an index like "[1]", to the path. Returns what reader_leave needs to drop it; a
- * failing reader need not leave. */
+/* Adds a key, or an index like "[1]", to the path. Returns the mark for reader_leave, which drops
+ * it; after a failure it may stay. */
 size_t reader_enter(struct reader *reader, const char *key);
 void reader_leave(struct reader *reader, size_t mark);
 
@@ -66,11 +66,11 @@ bool reader_is(const yaml_node_t *node, const char *word);
  * False if it is none. */
 bool reader_quantity(const yaml_node_t *node, enum quantity quantity, double *number);
 
-/* What reader_refuse_value says, unless a unit is what is wrong with the number. */
+/* As reader_refuse_value, or the message about a wrong unit of the number. */
 enum percuss_status reader_refuse_quantity(const struct reader *reader, const yaml_node_t *value,
                                            enum quantity quantity, const char *allowed);
 
-/* The same of a number that bears none. */
+/* The same of a number without a unit. */
 bool reader_number(const yaml_node_t *node, double *number);
 
 /* A whole number 1 .. most, digits only. */

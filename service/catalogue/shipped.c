@@ -31,7 +31,7 @@ static bool find_self(char path[PATH_MAX])
     return length > 0;
 }
 
-/* The first file of that name in the places, from where this is. */
+/* The first file of that name in the places, from the folder of this program or library. */
 static char *find(const char *const *places, size_t count, const char *name)
 {
     char self[PATH_MAX];
@@ -55,7 +55,7 @@ char *shipped_find(const char *name)
     return find(PLACES, sizeof PLACES / sizeof *PLACES, name);
 }
 
-/* It is named to people; NULL stays NULL. */
+/* The real path, for messages; NULL stays NULL. */
 static char *as_whole(char *found)
 {
     char *whole = found ? realpath(found, NULL) : NULL;

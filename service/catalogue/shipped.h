@@ -10,16 +10,15 @@
  * no memory. */
 char *shipped_find(const char *name);
 
-/* The path of the settings that a program goes by which is given none, for free(): those in the
- * folder for configuration that belongs to its own, or else those in share/percuss. NULL as above.
- */
+/* The path of the default settings of a program, for free(): those in the folder for configuration
+ * that belongs to its own, or else those in share/percuss. NULL as above. */
 char *shipped_settings(void);
 
 /* The same without a look into the folder for configuration. */
 char *shipped_plain_settings(void);
 
-/* A program that comes with this, as people type it, for free(): its whole path, or its name alone
- * where it lies in a folder for the commands of all, or is not there. NULL: no memory. */
+/* A shipped program, as a user types it, for free(): its whole path, or its name alone where it
+ * lies in a folder for the commands of all, or is not there. NULL: no memory. */
 char *shipped_program(const char *name);
 
 #endif
