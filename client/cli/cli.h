@@ -61,7 +61,8 @@ extern const struct argp common_argp;
  * Returns an exit code. */
 typedef int command_function(int argc, char **argv, struct common *common);
 command_function command_query, command_sweep, command_ensemble, command_bodies, command_status,
-    command_ping, command_compare, command_calibrate, command_dents, command_schema;
+    command_ping, command_compare, command_calibrate, command_dents, command_schema,
+    command_complete;
 /* What each reads. */
 extern const struct argp query_argp, sweep_argp, ensemble_argp, bodies_argp, status_argp, ping_argp,
     compare_argp, calibrate_argp, dents_argp, schema_argp;

@@ -10,7 +10,6 @@
 
 #include "cli.h"
 #include "commands.h"
-#include "complete.h"
 #include "fold.h"
 #include "option_hint.h"
 

@@ -3,20 +3,203 @@
 
 /* percuss query: one impact. */
 
+#include <jansson.h>
 #include <math.h>
+#include <percuss/percuss.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
+#include "csv.h"
+#include "ensemble_output.h"
+#include "json_writer.h"
 #include "measured_file.h"
 #include "output_file.h"
 #include "plot_impact.h"
 #include "quantity.h"
-#include "query_output.h"
+#include "reply_json.h"
+#include "reply_table.h"
 #include "request_json.h"
 #include "scene.h"
-#include "spread.h"
 #include "waiting.h"
+
+/* The spread of the restitution by the deviation of the speed. */
+
+/* Sixteen replicates of 32 points tell the deviation to a few per cent, within some 20 ms. */
+enum { SAMPLES = 512 };
+
+/* What is left of the restitution's certainty when the speed is known with a standard deviation
+ * only: a small ensemble around the impact, whose contact 0 approaches at `speed`. */
+static enum percuss_result spread_ask(struct percuss_client *client,
+                                      const struct percuss_request *request, double speed,
+                                      double deviation, double timeout,
+                                      struct percuss_ensemble_reply *reply)
+{
+    struct percuss_ensemble_request *ensemble = malloc(sizeof *ensemble);
+    *reply = (struct percuss_ensemble_reply){0};
+    if (!ensemble)
+        return PERCUSS_RESULT_NO_MEMORY;
+    /* the same scene at speeds that are distributed normally */
+    percuss_ensemble_request_init(ensemble);
+    ensemble->scene = *request;
+    ensemble->samples = SAMPLES;
+    ensemble->sampling = PERCUSS_SAMPLING_SOBOL;
+    ensemble->input_count = 1;
+    ensemble->inputs[0] = (struct percuss_input){
+        .name = "speed",
+        .distribution = PERCUSS_DISTRIBUTION_NORMAL,
+        .first = speed,
+        .second = deviation,
+        .lower = NAN,
+        .upper = NAN,
+    };
+    enum percuss_result result =
+        percuss_solve_ensemble(client, ensemble, timeout, NULL, NULL, reply);
+    free(ensemble);
+    return result;
+}
+
+/* Two lines for people; the refusal if it is one. */
+static void spread_print(double deviation, const struct percuss_ensemble_reply *reply)
+{
+    if (reply->statistic_count == 0) {
+        complain("%s: %s", percuss_status_name(reply->status), reply->message);
+        return;
+    }
+    const struct percuss_statistic *e = &reply->statistics[0];
+    size_t last = e->quantile_count - 1;
+    printf("\n  with the speed known to -+ %g m/s\n", deviation);
+    printf("  restitution  %.4f -+ %.4f", e->mean, e->standard_deviation);
+    if (e->quantile_count > 1)
+        printf(", %g %% of it between %.4f and %.4f",
+               100.0 * (e->probabilities[last] - e->probabilities[0]), e->quantiles[0],
+               e->quantiles[last]);
+    printf("\n");
+    for (size_t i = 0; i < reply->warning_count; i++)
+        complain("warning: %s", reply->warnings[i]);
+}
+
+/* The answers of a query: one, or several to different speeds and contact models. */
+
+/* Answers to print, one after the other. */
+struct query_output {
+    bool json, csv, units;
+    bool several;                   /* each is told from the others by speed and contact model */
+    unsigned count;                 /* printed so far */
+    json_t *answers;                /* of several as JSON, until the end */
+    const struct scene_text *scene; /* the question in words; NULL: a whole request */
+};
+
+/* A reply as comma-separated values. */
+
+/* The id of a body of the request; empty: the reply is not of this request. */
+static const char *body_of(const struct percuss_request *request, size_t contact, bool b)
+{
+    if (contact >= request->contact_count)
+        return "";
+    uint32_t body = b ? request->contacts[contact].b : request->contacts[contact].a;
+    return body < request->body_count ? request->bodies[body].id : "";
+}
+
+/* Prints the names of the columns on stdout, behind `lead`: others with a comma after each. */
+static void reply_csv_head(const char *lead, bool units)
+{
+    csv_head(stdout, lead, units);
+    csv_head(stdout,
+             "contact,a,b,restitution,error,impulse,sub_impacts,end_time,status,sub_impact,start,"
+             "end,sub_impulse,peak_force,max_indentation,negligible",
+             units);
+    putchar('\n');
+}
+
+/* Prints a line for each sub-impact that is listed, with what is of its contact before it (a
+ * contact without one has a line too), on stdout, behind `lead`; message and warnings to stderr. */
+static void reply_csv_print(const char *lead, const struct percuss_request *request,
+                            const struct percuss_reply *reply)
+{
+    /* only its numbers are printed of one that is not there */
+    const struct percuss_sub_impact none = {
+        .start = NAN, .end = NAN, .impulse = NAN, .peak_force = NAN, .max_indentation = NAN};
+    for (size_t c = 0; c < reply->contact_count; c++) {
+        const struct percuss_contact_result *contact = &reply->contacts[c];
+        for (uint32_t i = 0; i == 0 || i < contact->sub_impacts_listed; i++) {
+            const bool there = i < contact->sub_impacts_listed;
+            const struct percuss_sub_impact *sub = there ? &contact->sub_impacts[i] : &none;
+            printf("%s%zu,", lead, c);
+            csv_text(stdout, body_of(request, c, false));
+            putchar(',');
+            csv_text(stdout, body_of(request, c, true));
+            printf(",%.17g,%.17g,%.17g,%u,%.17g,%s", contact->restitution,
+                   reply_restitution_error(reply), contact->impulse, contact->sub_impact_count,
+                   contact->end_time, percuss_status_name(reply->status));
+            printf(",%u,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", there ? i + 1 : 0, sub->start,
+                   sub->end, sub->impulse, sub->peak_force, sub->max_indentation, sub->negligible);
+        }
+    }
+    reply_table_tell(reply);
+}
+
+static void add_json(struct query_output *output, const struct impact_run *run, double speed,
+                     const struct percuss_ensemble_reply *spread)
+{
+    json_t *reply = reply_to_json(&run->reply);
+    if (spread)
+        json_object_set_new(reply, "spread", ensemble_to_json(spread));
+    if (!output->several) {
+        json_print(reply);
+        return;
+    }
+    json_t *answer = json_object();
+    json_object_set_new(answer, "speed", json_number(speed));
+    json_object_set_new(
+        answer, "contact_model",
+        json_string(percuss_contact_model_name(run->request.options.contact_model)));
+    json_object_set_new(answer, "reply", reply);
+    if (!output->answers)
+        output->answers = json_array();
+    json_array_append_new(output->answers, answer);
+}
+
+static void add_csv(const struct query_output *output, const struct impact_run *run, double speed)
+{
+    char lead[64] = "";
+    if (output->several)
+        snprintf(lead, sizeof lead, "%.17g,%s,", speed,
+                 percuss_contact_model_name(run->request.options.contact_model));
+    if (output->count == 0)
+        reply_csv_head(output->several ? "speed,contact_model," : "", output->units);
+    reply_csv_print(lead, &run->request, &run->reply);
+}
+
+static void add_table(const struct query_output *output, const struct impact_run *run, double speed)
+{
+    if (output->several)
+        printf("%s%g m/s, contact model %s: ", output->count > 0 ? "\n" : "", speed,
+               percuss_contact_model_name(run->request.options.contact_model));
+    reply_table_print(&run->request, &run->reply, output->scene);
+}
+
+/* Prints the answer to this speed (m/s); `spread` is how it spreads, NULL: not asked for. */
+static void query_output_add(struct query_output *output, const struct impact_run *run,
+                             double speed, const struct percuss_ensemble_reply *spread)
+{
+    if (output->json)
+        add_json(output, run, speed, spread);
+    else if (output->csv)
+        add_csv(output, run, speed);
+    else
+        add_table(output, run, speed);
+    output->count++;
+}
+
+/* Prints what is left. */
+static void query_output_end(struct query_output *output)
+{
+    if (output->answers)
+        json_print(json_pack("{so}", "answers", output->answers));
+    output->answers = NULL;
+}
 
 enum {
     KEY_SPEED = OPTION_OWN,

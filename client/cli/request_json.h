@@ -6,15 +6,20 @@
 #ifndef PERCUSS_CLI_REQUEST_JSON_H
 #define PERCUSS_CLI_REQUEST_JSON_H
 
+#include <jansson.h>
 #include <percuss/request.h>
-
-#include "json_reader.h"
+#include <stdbool.h>
 
 struct json_request {
     struct percuss_request request; /* its delassus points into `delassus` */
     double delassus[PERCUSS_MAX_CONTACTS * PERCUSS_MAX_CONTACTS];
     bool has_client;
     uint8_t client[16];
+};
+
+/* Why a request is not read, with the path of the member. */
+struct json_fault {
+    char text[512];
 };
 
 /* Fills `request` from the JSON value. Omitted members take their defaults. False with the reason:

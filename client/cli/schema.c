@@ -3,13 +3,365 @@
 
 /* percuss schema: what JSON the program reads and prints. */
 
+#include <jansson.h>
 #include <string.h>
 
 #include "cli.h"
 #include "ensemble_output.h"
+#include "json_schema.h"
 #include "reply_json.h"
 #include "request_json.h"
-#include "schema_outputs.h"
+
+/* JSON Schemas of the commands' outputs besides replies and reports of ensembles. */
+
+JSON_TABLE(task, PERCUSS_TASK_FIELDS)
+JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
+JSON_TABLE(dent, PERCUSS_DENT_FIELDS)
+
+/* A member of an object that a command puts together. */
+struct member {
+    const char *name;
+    const char *type; /* number (or null), integer, string, boolean; of `list`: its elements' */
+    const char *what;
+    json_t *(*schema)(void); /* of an object, instead of the type */
+    bool list;
+};
+
+static json_t *type_of(const struct member *member)
+{
+    if (member->schema)
+        return member->schema();
+    if (strcmp(member->type, "number") == 0)
+        return json_pack("{s[ss]}", "type", "number", "null");
+    return json_pack("{ss}", "type", member->type);
+}
+
+/* All members are there; newer versions may add others. */
+static json_t *object_of(const struct member *members, size_t count)
+{
+    json_t *properties = json_object(), *required = json_array();
+    for (size_t i = 0; i < count; i++) {
+        json_t *schema = type_of(&members[i]);
+        if (members[i].list)
+            schema = json_pack("{ssso}", "type", "array", "items", schema);
+        json_object_set_new(schema, "description", json_string(members[i].what));
+        json_object_set_new(properties, members[i].name, schema);
+        json_array_append_new(required, json_string(members[i].name));
+    }
+    return json_pack("{sssoso}", "type", "object", "properties", properties, "required", required);
+}
+#define VALUE(name, type, what)                                                                    \
+    {                                                                                              \
+        name, type, what, NULL, false                                                              \
+    }
+#define VALUES(name, type, what)                                                                   \
+    {                                                                                              \
+        name, type, what, NULL, true                                                               \
+    }
+#define NESTED(name, what, schema)                                                                 \
+    {                                                                                              \
+        name, NULL, what, schema, false                                                            \
+    }
+#define LIST(name, what, schema)                                                                   \
+    {                                                                                              \
+        name, NULL, what, schema, true                                                             \
+    }
+#define OBJECT(members) object_of(members, sizeof members / sizeof *members)
+
+#define WARNINGS                                                                                   \
+    VALUES("warnings", "string", "each kind once, with how many have it and which is the first")
+
+static json_t *point_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("speed", "number", "m/s"),
+        VALUE("restitution", "number", ""),
+        VALUE("error", "number", "estimated, of the restitution"),
+        VALUE("impulse", "number", "N s"),
+        VALUE("sub_impacts", "integer", ""),
+        VALUE("significant", "integer", "those of at least 1 % of the impulse"),
+        VALUE("end_time", "number", "s"),
+        VALUE("status", "string", "of the reply"),
+        NESTED("reply", "as query prints it", reply_schema),
+    };
+    return OBJECT(members);
+}
+
+static json_t *answer_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("speed", "number", "m/s"),
+        VALUE("contact_model", "string", "asked for"),
+        NESTED("reply", "as query prints it where one is asked for", reply_schema),
+    };
+    return OBJECT(members);
+}
+
+/* of several answers */
+static json_t *query_schema(void)
+{
+    static const struct member members[] = {LIST(
+        "answers", "of the first speed by each contact model, then of the next", answer_schema)};
+    return OBJECT(members);
+}
+
+static json_t *curve_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("b", "string", "body B"),
+        VALUE("contact_model", "string", "asked for"),
+        LIST("points", "one a speed", point_schema),
+    };
+    return OBJECT(members);
+}
+
+/* Of one curve its points, of several the curves. */
+static json_t *sweep_schema(void)
+{
+    static const struct member members[] = {
+        LIST("points", "one a speed, of the only curve", point_schema),
+        LIST("curves", "where several bodies or models are asked for", curve_schema),
+        WARNINGS,
+    };
+    json_t *schema = OBJECT(members);
+    json_object_set_new(schema, "required", json_pack("[s]", "warnings"));
+    json_object_set_new(schema, "oneOf",
+                        json_pack("[{s[s]}{s[s]}]", "required", "points", "required", "curves"));
+    return schema;
+}
+
+static json_t *measured_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("restitution", "number", ""),
+        VALUE("impulse", "number", "N s"),
+        VALUE("sub_impacts", "number", ""),
+        VALUE("first_impulse", "number", "N s, of the first sub-impact"),
+        VALUE("first_duration", "number", "s, of the first sub-impact"),
+        VALUE("second_start", "number", "s, of the second one after the first"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *left_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("line", "integer", "of the file"),
+        VALUE("reason", "string", "what the row lacks"),
+    };
+    return OBJECT(members);
+}
+#define LEFT_OUT LIST("left_out", "rows of the file that tell no impact", left_schema)
+
+static json_t *twin_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("speed", "number", "m/s"),
+        VALUE("at", "number", "fraction of the length"),
+        NESTED("measured", "null where it was not", measured_schema),
+        NESTED("simulated", "the same of its twin", measured_schema),
+        VALUE("status", "string", "of the reply"),
+        VALUE("residual", "number", "restitution simulated less measured"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *moments_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("mean", "number", ""),
+        VALUE("standard_deviation", "number", ""),
+    };
+    return OBJECT(members);
+}
+
+static json_t *residual_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("mean", "number", ""),
+        VALUE("half_width", "number", "of its 95 % interval"),
+        VALUE("root_mean_square", "number", ""),
+    };
+    return OBJECT(members);
+}
+
+static json_t *distance_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("value", "number", ""),
+        VALUE("p", "number", "p-value"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *compare_schema(void)
+{
+    static const struct member members[] = {
+        NESTED("measured", "of the restitution", moments_schema),
+        NESTED("simulated", "of the restitution", moments_schema),
+        NESTED("residual", "of the restitution, simulated less measured", residual_schema),
+        NESTED("kolmogorov_smirnov", "distance of the distributions", distance_schema),
+        NESTED("energy_distance", "distance of the distributions", distance_schema),
+        VALUE("sub_impacts_known", "integer", "impacts whose number was measured"),
+        VALUE("sub_impacts_equal", "integer", "of these, with as many in the twin"),
+        LIST("impacts", "impact by impact", twin_schema),
+        LEFT_OUT,
+        WARNINGS,
+    };
+    return OBJECT(members);
+}
+
+static json_t *fitted_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("parameter", "string", ""),
+        VALUE("body", "string", ""),
+        VALUE("start", "number", "SI unit of the parameter; null: the catalogue's"),
+        VALUE("value", "number", "that fits best"),
+        VALUE("low", "number", "of its 95 % interval"),
+        VALUE("high", "number", "of its 95 % interval"),
+        VALUE("determined", "boolean", "whether the data tell it"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *quantity_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("quantity", "string", ""),
+        VALUE("known", "integer", "readings"),
+        VALUE("used", "integer", "readings"),
+        VALUE("scatter", "number", "relative"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *row_schema(void)
+{
+    return json_pack("{sss{s[ss]}}", "type", "array", "items", "type", "number", "null");
+}
+
+static json_t *calibrate_schema(void)
+{
+    static const struct member members[] = {
+        LIST("parameters", "", fitted_schema),
+        LIST("correlation", "row by row, of the parameters", row_schema),
+        LIST("quantities", "what was measured", quantity_schema),
+        VALUE("impacts", "integer", ""),
+        VALUE("freedom", "number", "degrees of freedom"),
+        LEFT_OUT,
+        WARNINGS,
+    };
+    return OBJECT(members);
+}
+
+static json_t *site_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("name", "string", ""),
+        VALUES("point", "number", "m, in the body's frame"),
+        VALUES("normal", "number", "outward"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *body_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("id", "string", ""),
+        VALUE("shape", "string", ""),
+        VALUE("material", "string", ""),
+        VALUE("mass", "number", "kg; null: a half-space"),
+        VALUE("description", "string", "dimensions, theory and ends in words"),
+        VALUES("half_extents", "number", "m, half the size along x, y, z; 0: without bounds"),
+        VALUE("radius", "number", "m; 0: it has none"),
+        VALUE("tip_radius", "number", "m, of a rod's or a beam's caps; null: flat ends of a rod"),
+        VALUES("supports", "string", "at -x and +x: free, pinned or clamped"),
+        VALUES("inertia", "number", "kg m^2, diagonal about the centre of mass"),
+        VALUES("products", "number", "kg m^2, elements yz, zx, xy"),
+        LIST("sites", "of a mesh", site_schema),
+    };
+    json_t *schema = OBJECT(members);
+    json_t *properties = json_object_get(schema, "properties");
+    /* what a request may override */
+    for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
+        if (p != PERCUSS_PARAMETER_RADIUS)
+            json_object_set_new(properties, percuss_parameter_name(p),
+                                json_pack("{s[ss]ss}", "type", "number", "null", "description",
+                                          "SI unit; null: it has none, or of yield: elastic"));
+    return schema;
+}
+
+static json_t *bodies_schema(void)
+{
+    static const struct member members[] = {LIST("bodies", "by id", body_schema)};
+    return OBJECT(members);
+}
+
+static json_t *remark_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("of", "string", "materials or bodies"),
+        VALUE("name", "string", "of the material or body"),
+        VALUE("key", "string", "of the catalogue, or size"),
+        VALUE("text", "string", "why it is improbable"),
+    };
+    return OBJECT(members);
+}
+
+/* bodies --check */
+static json_t *remarks_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("bodies", "integer", "that were looked at"),
+        LIST("remarks", "", remark_schema),
+    };
+    return OBJECT(members);
+}
+
+static json_t *dent_schema(void)
+{
+    return json_schema(dent_members(), false);
+}
+
+static json_t *specimen_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("specimen", "string", "its name"),
+        VALUE("body", "string", "of the catalogue"),
+        VALUE("impacts", "integer", "that it has had"),
+        LIST("patches", "its dents", dent_schema),
+    };
+    return OBJECT(members);
+}
+
+static json_t *dents_schema(void)
+{
+    static const struct member members[] = {LIST("specimens", "", specimen_schema)};
+    return OBJECT(members);
+}
+
+static json_t *server_schema(void)
+{
+    return json_schema(server_members(), false);
+}
+
+static json_t *status_schema(void)
+{
+    static const struct member members[] = {LIST("servers", "", server_schema)};
+    return OBJECT(members);
+}
+
+static json_t *ping_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("count", "integer", "pings"),
+        VALUE("shortest", "number", "s"),
+        VALUE("mean", "number", "s"),
+        VALUE("longest", "number", "s"),
+    };
+    return OBJECT(members);
+}
 
 struct kind {
     const char *name;

@@ -3,20 +3,364 @@
 
 /* percuss sweep: the same impact at many speeds. */
 
+#include <errno.h>
 #include <math.h>
+#include <percuss/percuss.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "measured_file.h"
 #include "output_file.h"
 #include "quantity.h"
 #include "scene.h"
-#include "sweep_file.h"
 #include "sweep_output.h"
-#include "sweep_run.h"
+
+/* The points of a curve: several requests at a time, told in their order. */
+
+/* Hears of point i, once it and all before it are there. False: no more of them are wanted. */
+typedef bool sweep_run_ready(void *context, unsigned i);
+
+struct sweep_run {
+    const struct common *common;
+    struct percuss_client *client;
+    struct scene scene; /* of this curve */
+    struct scene_bodies bodies;
+    const double *speeds;
+    unsigned count;
+    unsigned first; /* points before it are known already */
+    sweep_run_ready *ready;
+    void *context;                 /* of that */
+    struct percuss_reply *replies; /* one a speed; those below `first` are empty */
+    bool *there;
+    uint64_t *sequences;
+    unsigned sent, answered, told;
+};
+
+/* Enough to keep a server's workers busy, few enough for its queue. */
+enum { OUTSTANDING = 16 };
+
+/* Between two looks whether it was interrupted, and two drawings of the progress, s. */
+static const double LOOK = 0.1;
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+/* From now on an interrupt (SIGINT, SIGTERM) ends the asking, and a second one the program. */
+static void sweep_run_catch_interrupts(void)
+{
+    const struct sigaction once = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &once, NULL);
+    sigaction(SIGTERM, &once, NULL);
+}
+
+static bool sweep_run_interrupted(void)
+{
+    return interrupted;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int send_point(struct sweep_run *run, unsigned i)
+{
+    struct percuss_request request;
+    int code = scene_request(&run->scene, &run->bodies, run->speeds[i], &request);
+    if (code != EXIT_ANSWERED)
+        return code;
+    enum percuss_result result = percuss_submit(run->client, &request, &run->sequences[i]);
+    return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
+}
+
+/* Which point a reply answers: one of the last OUTSTANDING sent, or one sent again since. */
+static unsigned point_of(const struct sweep_run *run, uint64_t sequence)
+{
+    unsigned i = run->sent;
+    while (i > 0 && run->sequences[i - 1] != sequence)
+        i--;
+    return i - 1;
+}
+
+static void show_progress(const struct sweep_run *run, double *shown)
+{
+    enum { WIDTH = 40 };
+    unsigned done = run->first + run->answered, filled = WIDTH * done / run->count;
+    bool ends = done == run->count;
+    if (!isatty(STDERR_FILENO) || (!ends && now() < *shown + LOOK))
+        return;
+    *shown = now();
+    fprintf(stderr, "\r[%-*.*s] %u/%u", WIDTH, (int)filled,
+            "########################################", done, run->count);
+    if (ends)
+        fputc('\n', stderr);
+}
+
+/* Waits for any reply, as long as nobody interrupts. PENDING: he has. In this process waiting is
+ * solving, which must not begin anew at every look. */
+static enum percuss_result await(struct sweep_run *run, struct percuss_reply *reply)
+{
+    const double look = run->common->local ? INFINITY : LOOK;
+    double end = now() + common_timeout(run->common);
+    for (;;) {
+        double left = end - now();
+        enum percuss_result result = percuss_wait(run->client, 0, fmax(fmin(left, look), 0), reply);
+        if (interrupted && result == PERCUSS_RESULT_TIMEOUT)
+            return PERCUSS_RESULT_PENDING;
+        if (result != PERCUSS_RESULT_TIMEOUT || left <= look)
+            return result;
+    }
+}
+
+/* Tells of all that are there in order. */
+static bool tell(struct sweep_run *run)
+{
+    bool wanted = true;
+    while (wanted && run->told < run->count && run->there[run->told])
+        wanted = run->ready(run->context, run->told++);
+    return wanted;
+}
+
+/* Takes one reply; a busy server is asked again. */
+static int take_point(struct sweep_run *run)
+{
+    struct percuss_reply reply;
+    enum percuss_result result = await(run, &reply);
+    if (result == PERCUSS_RESULT_PENDING)
+        return EXIT_ANSWERED_WITH_WARNING;
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    unsigned i = point_of(run, reply.sequence);
+    if (reply.status == PERCUSS_BUSY) {
+        percuss_reply_free(&reply);
+        usleep(1000);
+        return send_point(run, i);
+    }
+    run->replies[i] = reply;
+    run->there[i] = true;
+    run->answered++;
+    return tell(run) ? EXIT_ANSWERED : EXIT_FAILURE;
+}
+
+/* Asks for the points from `first` on; what is set above `replies` is the caller's. Exit code;
+ * complains. Whatever it is, the points below `told` are there. To be released. */
+static int sweep_run_ask(struct sweep_run *run)
+{
+    double shown = 0.0;
+    run->replies = calloc(run->count, sizeof *run->replies);
+    run->there = calloc(run->count, sizeof *run->there);
+    run->sequences = calloc(run->count, sizeof *run->sequences);
+    run->sent = run->told = run->first;
+    if (!run->replies || !run->there || !run->sequences)
+        return complain_memory();
+    int code = scene_find_bodies(&run->scene, run->common, run->client, &run->bodies);
+    while (code == EXIT_ANSWERED && run->told < run->count && !interrupted) {
+        unsigned outstanding = run->sent - run->first - run->answered;
+        if (run->sent < run->count && outstanding < OUTSTANDING) {
+            code = send_point(run, run->sent++);
+        } else {
+            code = take_point(run);
+            show_progress(run, &shown);
+        }
+    }
+    return code == EXIT_ANSWERED && run->told < run->count ? EXIT_ANSWERED_WITH_WARNING : code;
+}
+
+/* Asks for one point by itself. The reply is the caller's. Exit code; complains. */
+static int sweep_run_again(struct sweep_run *run, unsigned i, struct percuss_reply *reply)
+{
+    struct percuss_request request;
+    int code = scene_find_bodies(&run->scene, run->common, run->client, &run->bodies);
+    if (code == EXIT_ANSWERED)
+        code = scene_request(&run->scene, &run->bodies, run->speeds[i], &request);
+    percuss_body_list_free(&run->bodies.list);
+    if (code != EXIT_ANSWERED)
+        return code;
+    return complain_result(
+        percuss_solve(run->client, &request, common_timeout(run->common), reply));
+}
+
+static void sweep_run_release(struct sweep_run *run)
+{
+    for (unsigned i = 0; run->replies && i < run->count; i++)
+        percuss_reply_free(&run->replies[i]);
+    free(run->replies);
+    free(run->there);
+    free(run->sequences);
+    percuss_body_list_free(&run->bodies.list);
+}
+
+/* A sweep's CSV in a file, which a later run continues. */
+
+/* A file under way. */
+struct reading {
+    const char *name;
+    const struct sweep_points *points;
+    FILE *file;
+    char *line;
+    size_t room, number; /* of the line */
+    long good;           /* where the last whole line ends */
+};
+
+/* A whole line without its end; false: there is none. */
+static bool next_line(struct reading *reading)
+{
+    ssize_t length = getline(&reading->line, &reading->room, reading->file);
+    if (length <= 0 || reading->line[length - 1] != '\n')
+        return false;
+    reading->line[length - 1] = '\0';
+    reading->number++;
+    reading->good = ftell(reading->file);
+    return true;
+}
+
+/* What a function would write, without the end of the line; NULL: no memory. */
+static char *line_of(const struct sweep_points *points, size_t k, unsigned i, bool head)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *memory = open_memstream(&text, &size);
+    if (!memory)
+        return NULL;
+    if (head)
+        sweep_csv_head(points, memory);
+    else
+        sweep_csv_row(points, k, i, memory);
+    if (fclose(memory) != 0 || size == 0)
+        return text;
+    text[size - 1] = '\0';
+    return text;
+}
+
+static const char *status_of(const char *name)
+{
+    for (unsigned status = 0; status < PERCUSS_STATUS_COUNT; status++)
+        if (strcmp(percuss_status_name(status), name) == 0)
+            return percuss_status_name(status);
+    return NULL;
+}
+
+/* The row in the line, if it is one: as it would be written. */
+static bool parse_row(const struct reading *reading, size_t k, unsigned i, struct sweep_row *row)
+{
+    char status[32] = "";
+    const char *text = reading->line;
+    for (int skipped = 0; reading->points->curve_count > 1 && skipped < 2; skipped++) {
+        text = strchr(text, ',');
+        if (!text)
+            return false;
+        text++;
+    }
+    if (sscanf(text, "%lf,%lf,%lf,%lf,%u,%u,%lf,%31[^,]", &row->speed, &row->restitution,
+               &row->error, &row->impulse, &row->sub_impacts, &row->significant, &row->end_time,
+               status) != 8)
+        return false;
+    row->status = status_of(status);
+    if (!row->status || row->speed != reading->points->speeds[i])
+        return false;
+    char *written = line_of(reading->points, k, i, false);
+    bool same = written && strcmp(written, reading->line) == 0;
+    free(written);
+    return same;
+}
+
+static int refuse(const struct reading *reading, const char *what)
+{
+    complain("--resume: %s:%zu: '%.200s' %s: another sweep's file?", reading->name, reading->number,
+             reading->line, what);
+    return EXIT_USAGE;
+}
+
+static int read_rows(struct reading *reading, struct sweep_curve *curves)
+{
+    char *head = line_of(reading->points, 0, 0, true);
+    if (!head)
+        return complain_memory();
+    bool empty = !next_line(reading), good = empty || strcmp(head, reading->line) == 0;
+    free(head);
+    if (!good)
+        return refuse(reading, "is not the first line of this sweep");
+    /* curve by curve, speed by speed, as they are asked for */
+    for (size_t k = 0; !empty && k < reading->points->curve_count; k++)
+        for (unsigned i = 0; i < reading->points->count; i++) {
+            if (!next_line(reading))
+                return EXIT_ANSWERED;
+            if (!parse_row(reading, k, i, &curves[k].rows[i]))
+                return refuse(reading, "is not the row of this sweep that stands here");
+            curves[k].done = i + 1;
+        }
+    if (!empty && next_line(reading))
+        return refuse(reading, "is one row more than this sweep has");
+    return EXIT_ANSWERED;
+}
+
+/* Opens the file, or begins it, for the rows that it lacks. What it holds becomes `rows` and `done`
+ * of the curves: it must be the beginning of this very sweep, row by row; a last line that was cut
+ * is taken away. Exit code; complains. The caller closes *file. */
+static int sweep_file_open(const char *name, const struct sweep_points *points,
+                           struct sweep_curve *curves, FILE **file)
+{
+    struct reading reading = {.name = name, .points = points, .file = fopen(name, "a+e")};
+    *file = NULL;
+    if (!reading.file) {
+        complain("--resume: %s: %s", name, strerror(errno));
+        return EXIT_USAGE;
+    }
+    rewind(reading.file);
+    int code = read_rows(&reading, curves);
+    /* what was cut goes; what comes is added at the end */
+    if (code == EXIT_ANSWERED && ftruncate(fileno(reading.file), reading.good) != 0) {
+        complain("--resume: %s: %s", name, strerror(errno));
+        code = EXIT_FAILURE;
+    }
+    free(reading.line);
+    if (code != EXIT_ANSWERED) {
+        fclose(reading.file);
+        return code;
+    }
+    fseek(reading.file, 0, SEEK_END);
+    if (reading.good == 0)
+        sweep_csv_head(points, reading.file);
+    *file = reading.file;
+    return EXIT_ANSWERED;
+}
+
+/* Whether row i of curve k, asked for again, is to the last bit what the file holds. False: the
+ * file has the answers to another question; complains. */
+static bool sweep_file_agrees(const char *name, const struct sweep_points *points, size_t k,
+                              unsigned i, const struct percuss_reply *again)
+{
+    struct sweep_row row = sweep_row_of(again, points->speeds[i]);
+    struct sweep_curve curve = points->curves[k];
+    struct sweep_points other = *points;
+    const double speed = points->speeds[i];
+    /* the same curve with the row alone */
+    curve.rows = &row;
+    other.curves = &curve;
+    char *held = line_of(points, k, i, false), *fresh = line_of(&other, 0, 0, false);
+    bool same = held && fresh && strcmp(held, fresh) == 0;
+    if (!same)
+        complain(
+            "--resume: %s: its row at %g m/s, '%s', is '%s' now: it has the answers to another "
+            "question, or of another catalogue",
+            name, speed, held ? held : "", fresh ? fresh : "");
+    free(held);
+    free(fresh);
+    return same;
+}
 
 enum { MOST_POINTS = 1000000 };
 enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_MEASURED };

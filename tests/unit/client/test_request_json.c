@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/cli/request_json.c and json_reader.c: a whole request, defaults, and every kind of
+/* Tests client/cli/request_json.c: a whole request, defaults, and every kind of
  * error with its path. */
 #include <stdio.h>
 #include <string.h>
