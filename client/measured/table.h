@@ -5,7 +5,45 @@
 #ifndef PERCUSS_MEASURED_TABLE_H
 #define PERCUSS_MEASURED_TABLE_H
 
-#include "layout.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "column.h"
+
+/* A line with something in it, and its number in the file. */
+struct text_line {
+    char *text;
+    size_t number;
+};
+
+struct text_lines {
+    size_t count;
+    struct text_line *list;
+};
+
+struct cells {
+    char *text;
+    size_t all, filled; /* as of divide_line */
+    char **list;        /* [all] */
+};
+
+/* Which columns a file may have, and what the user says of them. */
+struct table_source {
+    const char *file; /* "-": standard input */
+    const struct column_kind *kinds;
+    size_t kind_count;            /* up to COLUMN_KINDS */
+    const struct column_map *map; /* or NULL */
+};
+
+struct layout {
+    const struct table_source *source;
+    char separator;
+    size_t first;            /* index of the line with the first row */
+    size_t line;             /* number of the line of headings; 0: there is none */
+    struct cells titles;     /* of the columns, as the headings say, or as the first row has them */
+    int place[COLUMN_KINDS]; /* column of each kind, or -1 */
+    char unit[COLUMN_KINDS][UNIT_SIZE];
+};
 
 struct table {
     char *text; /* holds everything below */
@@ -46,6 +84,10 @@ void table_look(struct table *table, size_t row, size_t kind, double number);
 /* Notes the numbers remembered that are possible but improbable: of each column the first one,
  * with its line, and how many others there are. */
 void table_note_unusual(const struct table *table, struct measured_remarks *remarks);
+
+/* Writes "'a', 'b' and 3 more" of the columns that are not read, or of all of them; returns how
+ * many there are. */
+size_t layout_list(const struct layout *layout, bool all, char *text, size_t size);
 
 /* Rows that are left out for one reason. */
 enum { LEFT_OUT_NAMED = 10 };

@@ -1,9 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/measured/impact.c with what it reads by: table.c, survey.c, heading.c, layout.c,
- * cells.c. One set of impacts in the shapes in which programs of rigs write it, and all that is
- * wrong with a file at once. */
+/* Tests client/measured/impact.c and table.c, which reads its file. One set of impacts in the
+ * shapes in which programs of rigs write it, and all that is wrong with a file at once. */
 #include "files.h"
 #include "impact.h"
 
