@@ -1,6 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+/* A client: its configuration, its DDS entities and their participant, its end. */
+
 #include "client.h"
 
 #include <ctype.h>
@@ -8,13 +10,108 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/queue.h>
 #include <sys/random.h>
+#include <time.h>
 
 #include "error.h"
 #include "failure.h"
 #include "library.h"
-#include "participants.h"
 #include "wire_security.h"
+
+/* The DDS participants of this process: one a domain and identity, for all its clients. Any thread.
+ *
+ * Cyclone DDS 0.10 lets only the first of several participants learn what a newly found process had
+ * before (q_receive.c: readers of discovery after the first are in sync at once); when that one is
+ * deleted before it has, the others never do. Clients with a participant each, one freed while a
+ * server comes up, would not find that server until all of them were gone. */
+
+struct shared_participant {
+    uint32_t domain;
+    char *security; /* empty: none */
+    struct wire_validity validity;
+    dds_entity_t entity;
+    unsigned holders;
+    LIST_ENTRY(shared_participant) others;
+};
+
+/* As a process has one of each DDS domain. */
+static LIST_HEAD(, shared_participant) participants = LIST_HEAD_INITIALIZER(participants);
+static pthread_mutex_t participants_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* Not one whose identity has ended: its folder may have been made anew since. */
+static struct shared_participant *find_participant(uint32_t domain, const char *security)
+{
+    struct shared_participant *shared;
+    LIST_FOREACH(shared, &participants, others)
+    if (shared->domain == domain && strcmp(shared->security, security) == 0 &&
+        !wire_validity_is_over(&shared->validity, time(NULL)))
+        return shared;
+    return NULL;
+}
+
+/* NULL: out of memory. */
+static struct shared_participant *create(uint32_t domain, const char *security)
+{
+    struct shared_participant *shared = calloc(1, sizeof *shared);
+    char *copy = strdup(security);
+    if (!shared || !copy) {
+        free(shared);
+        free(copy);
+        return NULL;
+    }
+    shared->domain = domain;
+    shared->security = copy;
+    if (*security)
+        wire_validity_read(security, &shared->validity);
+    LIST_INSERT_HEAD(&participants, shared, others);
+    return shared;
+}
+
+static void discard(struct shared_participant *shared)
+{
+    LIST_REMOVE(shared, others);
+    free(shared->security);
+    free(shared);
+}
+
+/* The participant of that domain and identity (a folder; NULL: none), made by the first who holds
+ * it; or a negative DDS code. */
+static dds_entity_t participants_hold(uint32_t domain, const char *security)
+{
+    const char *identity = security ? security : "";
+    dds_entity_t entity = DDS_RETCODE_OUT_OF_RESOURCES;
+    pthread_mutex_lock(&participants_lock);
+    struct shared_participant *shared = find_participant(domain, identity);
+    if (!shared)
+        shared = create(domain, identity);
+    if (shared && shared->holders == 0)
+        shared->entity = wire_participant_create_secured(domain, security);
+    if (shared) {
+        entity = shared->entity;
+        if (entity > 0)
+            shared->holders++;
+        else
+            discard(shared);
+    }
+    pthread_mutex_unlock(&participants_lock);
+    return entity;
+}
+
+/* Deletes it after the last one. What it was asked to make is to be deleted before. */
+static void participants_release(dds_entity_t participant)
+{
+    struct shared_participant *shared;
+    pthread_mutex_lock(&participants_lock);
+    LIST_FOREACH(shared, &participants, others)
+    if (shared->entity == participant)
+        break;
+    if (shared && --shared->holders == 0) {
+        dds_delete(participant);
+        discard(shared);
+    }
+    pthread_mutex_unlock(&participants_lock);
+}
 
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
 

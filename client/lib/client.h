@@ -41,7 +41,7 @@ struct percuss_client {
     bool observes;                       /* its permissions let it only see what servers announce */
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
     bool least_loaded;                   /* of all: the one that has least to do */
-    dds_entity_t participant; /* of all clients of the domain and identity, see participants.h */
+    dds_entity_t participant; /* of all clients of the domain and identity, see client.c */
     dds_entity_t waitset;
     dds_entity_t request_writer;
     dds_entity_t reply_reader;

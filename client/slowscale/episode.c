@@ -2,14 +2,71 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Answers being played. */
+
+#include "episode.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "episode.h"
-#include "list.h"
 #include "pairs.h"
 #include "question.h"
+#include "slow.h"
+
+/* The order of an episode's impulses in time. */
+
+static int by_time(const void *x, const void *y)
+{
+    const struct entry *a = x, *b = y;
+    if (a->play != b->play)
+        return a->play < b->play ? -1 : 1;
+    return a->contact < b->contact ? -1 : a->contact > b->contact;
+}
+
+/* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
+static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
+                         size_t contact)
+{
+    double sum = 0.0;
+    struct entry *first = &episode->entries[episode->entry_count];
+    for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
+        const struct percuss_sub_impact *sub = &result->sub_impacts[i];
+        struct entry *entry = &episode->entries[episode->entry_count++];
+        *entry = (struct entry){.time = episode->time + percuss_slow_force_centre(sub),
+                                .start = sub->start,
+                                .end = sub->end,
+                                .contact = contact,
+                                .impulse = sub->impulse};
+        sum += sub->impulse;
+    }
+    /* rounding, or more sub-impacts than are listed */
+    struct entry rest = {.time = episode->time + result->end_time,
+                         .start = result->end_time,
+                         .end = result->end_time,
+                         .contact = contact,
+                         .impulse = result->impulse - sum};
+    if (result->sub_impact_count > result->sub_impacts_listed)
+        episode->entries[episode->entry_count++] = rest;
+    else if (result->sub_impacts_listed)
+        first[result->sub_impacts_listed - 1].impulse += rest.impulse;
+}
+
+/* The entries of an episode, in the order in which they are applied: the reply's sub-impacts at the
+ * centres of their forces, or without a reply the impulses of its contacts at its time. `total`:
+ * all are applied at the episode's time. */
+static void list_make(struct episode *episode, const struct percuss_reply *reply,
+                      const double *impulse, bool total)
+{
+    for (size_t i = 0; i < episode->request.contact_count; i++)
+        if (reply)
+            list_contact(episode, &reply->contacts[i], i);
+        else if (impulse[i] != 0.0)
+            episode->entries[episode->entry_count++] =
+                (struct entry){.time = episode->time, .contact = i, .impulse = impulse[i]};
+    for (size_t i = 0; i < episode->entry_count; i++)
+        episode->entries[i].play = total ? episode->time : episode->entries[i].time;
+    qsort(episode->entries, episode->entry_count, sizeof *episode->entries, by_time);
+}
 
 static const double SHORTEST_HORIZON = 1e-9; /* s, that the service allows */
 static const double MARGIN = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */

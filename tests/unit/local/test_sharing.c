@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests local/sharing.c: an ensemble whose samples others solve is the same to the byte, however
- * they are cut, and what is no part of it is refused. */
+/* Tests local/ensemble.c, its parts between processes: an ensemble whose samples others solve is
+ * the same to the byte, however they are cut, and what is no part of it is refused. */
 #include <math.h>
 #include <percuss/ensemble_share.h>
 #include <percuss/local.h>

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors client/slowscale/episode.c and list.c: impulses at their times, whenever they are
+/* Mirrors client/slowscale/episode.c: impulses at their times, whenever they are
  * applied, and answers that are revoked because another body hits. */
 #include "unit/slowscale/toy.h"
 
