@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss bodies: the server's catalogue, and what is improbable in it. */
+/* percuss bodies: the server's catalogue, and its improbable numbers. */
 
 #include <stdio.h>
 #include <string.h>
@@ -125,7 +125,7 @@ static void tell(json_t *array, const char *group, const char *name,
         printf("%s.%s.%s: %s\n", group, name, remark->key, remark->text);
 }
 
-/* What is possible but improbable of a material, once, and of each body; how much. */
+/* Prints the improbable numbers of each material, once, and of each body; their count. */
 static size_t check_bodies(const struct percuss_body_list *list, json_t *array)
 {
     struct plausible_remark remarks[PLAUSIBLE_MOST];

@@ -114,7 +114,7 @@ static void calibrate_print_json(const struct calibrate_report *report)
     json_print(root);
 }
 
-/* Says on stderr what the data do not determine; returns whether there is anything to say. */
+/* Names on stderr the parameters that the data do not determine; returns whether there are any. */
 static bool calibrate_warn(const struct calibrate_report *report)
 {
     const struct calibration *calibration = report->calibration;
@@ -253,7 +253,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[1] = calibrate->common;
         state->child_inputs[2] = &calibrate->columns;
         return 0;
-    /* what is fitted, and how well it was measured */
+    /* the fitted parameters, and the noise of the measurements */
     case KEY_FIT:
         parse_fit(text, calibrate, state);
         return 0;
@@ -262,7 +262,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!(calibrate->noise > 0.0 && calibrate->noise < 1.0))
             argp_error(state, "--noise: '%s': a number between 0 and 1 is needed", text);
         return 0;
-    /* the file with what was measured */
+    /* the file of measured impacts */
     case ARGP_KEY_ARG:
         if (calibrate->file)
             argp_error(state, "one file is needed, not '%s' as well", text);
@@ -321,7 +321,7 @@ static int explain(const struct run *run, const struct calibration *calibration)
     size_t used = 0, known = 0;
     if (run->fitting.result != PERCUSS_RESULT_OK)
         return twins_code(&run->twins, run->fitting.result);
-    /* what the file holds, and what of it could be used */
+    /* the quantities of the file, and how many of each could be used */
     for (int q = 0; q < QUANTITIES; q++) {
         used += calibration->used[q];
         known += calibration->known[q];
@@ -346,7 +346,7 @@ static int run_calibration(struct run *run)
     struct calibration calibration;
     if (!fitting_solve(&run->fitting, &calibration))
         return explain(run, &calibration);
-    /* what is to be said of the twins is said of those that came out best */
+    /* warnings are of the twins with the best values */
     int code = twins_code(&run->twins, fitting_ask(&run->fitting, calibration.fit.x, 1.0));
     waiting_end();
     if (code != EXIT_ANSWERED)
@@ -354,7 +354,7 @@ static int run_calibration(struct run *run)
                  "warns of there is not known");
     struct calibrate_report report = {calibrate->parameters, calibrate->count,     &calibration,
                                       run->set.count,        &run->twins.warnings, &run->set};
-    /* the values, and what makes them doubtful */
+    /* the values and their doubts */
     if (calibrate->common->json)
         calibrate_print_json(&report);
     else
@@ -367,7 +367,7 @@ static int run_calibration(struct run *run)
     return warned ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
 }
 
-/* The twins as the catalogue has them complete what was measured. */
+/* The twins with the catalogue's values complete the measured impacts. */
 static int prepare(struct run *run)
 {
     struct calibrate *calibrate = run->calibrate;
@@ -392,7 +392,7 @@ int command_calibrate(int argc, char **argv, struct common *common)
     argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
     if (calibrate.scene.options.tolerance == 0.0)
         calibrate.scene.options.tolerance = FITTING_TOLERANCE;
-    /* what was measured */
+    /* the measured impacts */
     int code = measured_file_read(calibrate.file, &calibrate.columns, &run.set);
     if (code != EXIT_ANSWERED)
         return code;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the commands share: options, exit codes, the connection. */
+/* Shared by the commands: options, exit codes, the connection. */
 #ifndef PERCUSS_CLI_CLI_H
 #define PERCUSS_CLI_CLI_H
 
@@ -22,13 +22,13 @@ typedef enum percuss_result solve_ensemble_function(
     struct percuss_client *client, const struct percuss_ensemble_request *request, double timeout,
     percuss_progress_function *progress, void *context, struct percuss_ensemble_reply *reply);
 
-/* Options of every command, and who solves ensembles. */
+/* Options of every command, and the solver of ensembles. */
 struct common {
     uint32_t domain;
     double timeout; /* s for the answer; NAN: not given */
     bool json;
     bool units;                          /* in the head of comma-separated values */
-    char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with, or a choice; empty: any */
+    char server[PERCUSS_SERVER_ID_SIZE]; /* beginning of its id, or a choice; empty: any */
     const char *partition;               /* NULL: not given; empty: none */
     const char *security;                /* folder of the identity to use; NULL: not given */
     bool local;                          /* solve in this process; by these files, or NULL */
@@ -57,13 +57,13 @@ enum option_key {
 /* Parses the options that all commands have into the `struct common` that is its input. */
 extern const struct argp common_argp;
 
-/* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.
+/* One command: argv[0] is "percuss <command>"; `common` holds the options before the command.
  * Returns an exit code. */
 typedef int command_function(int argc, char **argv, struct common *common);
 command_function command_query, command_sweep, command_ensemble, command_bodies, command_status,
     command_ping, command_compare, command_calibrate, command_dents, command_schema,
     command_complete;
-/* What each reads. */
+/* The options of each. */
 extern const struct argp query_argp, sweep_argp, ensemble_argp, bodies_argp, status_argp, ping_argp,
     compare_argp, calibrate_argp, dents_argp, schema_argp;
 
@@ -97,7 +97,7 @@ int complain_result(enum percuss_result result);
  * one, and how to start one here. */
 void complain_no_server(const struct common *common);
 
-/* The DDS domain that PERCUSS_DOMAIN names, 0 without; what is no domain ends the process. */
+/* The DDS domain that PERCUSS_DOMAIN names, 0 without; any other text ends the process. */
 uint32_t environment_domain(void);
 
 /* The server that PERCUSS_SERVER names; empty without. */
@@ -113,8 +113,8 @@ int connect_client(const struct common *common, struct percuss_client *client);
 /* Both. Warns of servers that answer beside the one it stays with. */
 int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
 
-/* The same for what servers announce to everybody: not connected where its identity may only see
- * that. */
+/* The same for what servers announce to everybody: not connected where its identity may see
+ * announcements only. */
 int open_onlooker(const struct common *common, struct percuss_client **client);
 
 /* The exit code of a reply. */

@@ -38,7 +38,7 @@ const struct command *commands_similar(const char *name)
     size_t length = strlen(name);
     unsigned best = (unsigned)(length + 1) / 2;
     for (const struct command *command = COMMANDS; command->name; command++) {
-        /* who breaks off early has made no mistake so far */
+        /* an unfinished name is no mistake */
         bool begun = !strncmp(command->name, name, length);
         unsigned distance = begun ? 0 : similar_distance(name, command->name);
         if (distance < best) {

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* All commands: what runs them, what says their options, and a line about each. */
+/* All commands: their functions, their options, and a line about each. */
 #ifndef PERCUSS_CLI_COMMANDS_H
 #define PERCUSS_CLI_COMMANDS_H
 

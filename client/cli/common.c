@@ -21,7 +21,7 @@
 
 /* The solver in this process, by libpercuss-local, which is loaded at its first use. */
 
-/* What is needed of the library; the rest of the interface is that of libpercuss. */
+/* The functions of the library that are used; the rest of its interface is that of libpercuss. */
 struct library {
     struct percuss_local_config (*config_default)(void);
     enum percuss_result (*open)(const struct percuss_local_config *, struct percuss_client **);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss compare: what a rig measured against what the server computes. */
+/* percuss compare: measured impacts beside computed ones. */
 
 #include "compare.h"
 
@@ -52,7 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[2] = &compare->plot;
         state->child_inputs[3] = &compare->columns;
         return 0;
-    /* what is written */
+    /* the output */
     case KEY_CSV:
         compare->csv = true;
         return 0;
@@ -63,7 +63,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SEED:
         compare->seed = parse_count("seed", text, MOST_SEED, state);
         return 0;
-    /* the file with what was measured */
+    /* the file of measured impacts */
     case ARGP_KEY_ARG:
         if (compare->file)
             argp_error(state, "one file is needed, not '%s' as well", text);
@@ -144,7 +144,7 @@ int command_compare(int argc, char **argv, struct common *common)
     struct measured_set set;
     struct twins twins;
     argp_parse(&compare_argp, argc, argv, 0, NULL, &compare);
-    /* what was measured */
+    /* the measured impacts */
     int code = measured_file_read(compare.file, &compare.columns, &set);
     if (code != EXIT_ANSWERED)
         return code;

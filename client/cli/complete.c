@@ -14,14 +14,14 @@
 
 /* The values of an option. */
 
-/* s for a server to appear and to answer: who types does not wait longer, and on one host it takes
- * 0.1 s */
+/* s for a server to appear and to answer: longer waits disturb typing, and on one host it takes 0.1
+ * s */
 static const double PATIENCE = 0.5;
 
 /* How much of a server's id is offered: as much as messages show of it. */
 enum { SERVER_DIGITS = 8, NAME_SIZE = 2 * PERCUSS_ID_SIZE + 32 };
 
-/* Options whose values have names. */
+/* Options with named values. */
 static const struct {
     const char *option;
     const char *(*name_of)(unsigned);
@@ -76,7 +76,7 @@ static void offer_sites(const struct line *line, const struct percuss_body *body
         line_offer(line, body->sites[i].name, body->id);
 }
 
-/* "young:al-beam" for --fit, with what the catalogue says. */
+/* "young:al-beam" for --fit, with the catalogue's value. */
 static void offer_parameters(const struct line *line, const struct percuss_body *body)
 {
     char text[NAME_SIZE], value[32];
@@ -168,8 +168,8 @@ static void offer_columns(const struct line *line)
     }
 }
 
-/* Offers the values of the line's option: names that are fixed, files, and what the server knows
- * that the line names, or this process: nothing of that where none answers at once. */
+/* Offers the values of the line's option: names that are fixed, files, and names that the line's
+ * server or this process knows; without those where no server answers at once. */
 static void complete_values(const struct line *line)
 {
     const char *name = line->option->name, *kind = line->option->arg;
@@ -177,7 +177,7 @@ static void complete_values(const struct line *line)
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++)
         for (unsigned k = 0; !strcmp(choices[i].option, name) && k < choices[i].count; k++)
             line_offer(line, choices[i].name_of(k), NULL);
-    /* what the catalogue has */
+    /* names of the catalogue */
     bool named = line->bodies[0] || line->bodies[1];
     if (!strcmp(name, "a") || !strcmp(name, "b"))
         offer_of_bodies(line, false, offer_id);
@@ -195,7 +195,7 @@ static void complete_values(const struct line *line)
         offer_of_bodies(line, named, offer_inputs);
     } else if (!strcmp(name, "column"))
         offer_columns(line);
-    /* who answers, and what it keeps */
+    /* servers, and specimens */
     if (!strcmp(name, "server"))
         offer_servers(line);
     else if (!strcmp(name, "domain"))
@@ -206,7 +206,7 @@ static void complete_values(const struct line *line)
         puts(":files");
 }
 
-/* What argp adds to the options of every command. */
+/* The options that argp adds to every command. */
 static const struct argp_option built_in[] = {
     {"help", '?', NULL, 0, "Give this help list", 0},
     {"usage", '?', NULL, 0, "Give a short usage message", 0},
@@ -232,7 +232,7 @@ static void offer_options(const struct line *line, const struct argp *argp)
         offer_options(line, child->argp);
 }
 
-/* The words of "request|reply"; what is in capitals is a file of the user's. */
+/* The words of "request|reply"; capitals stand for a file of the user. */
 static void offer_arguments(const struct line *line, const char *arguments)
 {
     char word[32];

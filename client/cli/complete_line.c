@@ -51,7 +51,7 @@ static void take_server(struct common *common, const char *value)
         memcpy(common->server, value, length + 1);
 }
 
-/* The value of an option that decides who is asked, or about what. */
+/* Takes the value of an option that chooses the server or the bodies. */
 static void take_value(struct line *line, char *value)
 {
     char *end;
@@ -141,7 +141,7 @@ bool line_read(int count, char **words, struct common *common, struct line *line
         size += strlen(words[i]) + 1;
     *line = (struct line){.common = common, .text = calloc(1, size)};
     char *word = line->text, *end = word;
-    /* what a shell has split is put together again */
+    /* words that a shell has split are joined again */
     for (int i = 0; i < count; i++) {
         bool split = i > 0 && (is_separator(words[i]) ||
                                (is_separator(words[i - 1]) && strncmp(words[i], "--", 2) != 0));

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A command line that is being typed: what its words say so far, and what is to be completed. */
+/* A command line that is being typed: the meaning of its words, and the word to complete. */
 #ifndef PERCUSS_CLI_COMPLETE_LINE_H
 #define PERCUSS_CLI_COMPLETE_LINE_H
 
@@ -11,9 +11,9 @@ struct line {
     struct common *common;
     const struct command *command;    /* NULL: not given yet */
     bool help;                        /* the command is help */
-    const struct argp_option *option; /* whose value is next; NULL: none */
+    const struct argp_option *option; /* its value is next; NULL: none */
     const char *bodies[2];            /* --a, --b; NULL: not given */
-    const char *before;               /* of the last word what stays, for example "--a=" */
+    const char *before;               /* part of the last word that stays, for example "--a=" */
     int before_length;
     const char *word; /* its rest, to be completed */
     size_t split;     /* characters of the last word that its shell takes for words before it */
@@ -36,7 +36,7 @@ const struct argp_option *line_find_option(const struct argp *argp, const char *
 /* Whether an array of options ends here. */
 bool line_options_end(const struct argp_option *option);
 
-/* Prints a way to go on, if it is one, with what it is (NULL: nothing to say). */
+/* Prints a way to go on, if the word allows it, with its description (NULL: none). */
 void line_offer(const struct line *line, const char *text, const char *what);
 
 #endif

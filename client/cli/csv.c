@@ -7,7 +7,7 @@
 
 #include "fold.h"
 
-/* What columns are in; counts, shares, names and the like are in nothing. */
+/* Units of columns; counts, shares, names and the like have none. */
 static const struct {
     const char *name, *unit;
 } columns[] = {

@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 /* Names of columns, "speed,restitution", without the end of the line; with units "speed
- * [m/s],restitution": what has none stays as it is. Of "young@al-beam" what is before the @
- * decides. */
+ * [m/s],restitution": a name without a unit stays as it is. Of "young@al-beam" the part before the
+ * @ decides. */
 void csv_head(FILE *file, const char *names, bool units);
 
 /* A text, in quotes where it needs them. */

@@ -32,7 +32,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = dents->common;
         return 0;
-    /* whose dents, and what becomes of them */
+    /* the specimen, and the action on its dents */
     case KEY_SPECIMEN:
         dents->specimen = text;
         return 0;

@@ -23,7 +23,8 @@ void domains_by_ports(FILE *table, bool taken[DOMAINS_COUNT])
     while (fgets(line, sizeof line, table))
         if (sscanf(line, " %*u: %*8[0-9A-F]:%4X", &port) == 1)
             bound[port] = true;
-    /* a pair that nobody has by chance; other programs' ports may be among them all the same */
+    /* a pair of ports that is not bound by chance; other programs' ports may be among them all the
+     * same */
     for (unsigned domain = 0; domain < DOMAINS_COUNT; domain++) {
         const unsigned first = PORT_BASE + DOMAIN_GAIN * domain;
         taken[domain] = first + 1 < PORTS && bound[first] && bound[first + 1];
@@ -49,7 +50,7 @@ static bool announces(struct percuss_client *client, double timeout)
     return found;
 }
 
-/* A client in another domain, which begins to hear who is there. NULL: none. */
+/* A client in another domain, which begins to receive announcements. NULL: none. */
 static struct percuss_client *listen_in(const struct common *common, unsigned domain)
 {
     struct percuss_client_config config = {.domain = domain, .first_sequence = 1, .window = 1};

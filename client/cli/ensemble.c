@@ -167,7 +167,7 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     request->list_samples = ensemble->csv || plot_wanted(&ensemble->plot);
 }
 
-/* What is uncertain. */
+/* Parses an uncertain input. */
 static error_t parse_input(int key, char *text, struct argp_state *state)
 {
     struct ensemble *ensemble = state->input;
@@ -233,7 +233,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[1] = ensemble->common;
         state->child_inputs[2] = &ensemble->plot;
         return 0;
-    /* what is told of the samples */
+    /* the report of the samples */
     case KEY_QUANTILES:
         parse_quantiles(ensemble->request, text, state);
         return 0;
@@ -292,7 +292,7 @@ static bool show_progress(void *context, const struct percuss_ensemble_progress 
     return !interrupted;
 }
 
-/* What a refusal calls inputs[N] by the name under which it was given. */
+/* Names the input that a refusal calls inputs[N]. */
 static void tell_input(const struct percuss_ensemble_request *request,
                        const struct percuss_ensemble_reply *reply)
 {

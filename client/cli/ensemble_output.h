@@ -24,7 +24,7 @@ json_t *ensemble_schema(void);
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
                         const struct percuss_ensemble_reply *reply, bool units);
 
-/* Draws what the reply says, the restitution over the speed from its listed samples. Exit code;
+/* Draws the reply, and the restitution over the speed from its listed samples. Exit code;
  * complains. */
 int ensemble_plot(const struct plot_output *output, const char *scene,
                   const struct percuss_ensemble_request *request,

@@ -114,7 +114,7 @@ static void print_intervals(const struct percuss_ensemble_reply *reply)
 static void print_chaos(const struct percuss_sensitivity *input)
 {
     size_t known = 0, chaotic = 0;
-    /* parts whose spread is known, and is chaos */
+    /* parts with a known spread, which is chaos */
     for (size_t i = 0; i < input->part_count; i++) {
         known += !isnan(input->parts[i].local);
         chaotic += input->parts[i].chaotic;

@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* A narrower one is no place for tables; and what goes on below stands in by so much. */
+/* A narrower terminal has no room for tables; a line's continuation is indented by so much. */
 enum { NARROWEST = 30, INDENT = 4 };
 
 /* 0: lines are left as they are */

@@ -12,11 +12,11 @@
  * rest begins, and in *indent by how many blanks. `length`: it has no place for it. */
 size_t fold_place(const char *line, size_t length, size_t width, size_t *next, size_t *indent);
 
-/* If standard output is a terminal, folds what is written there from now on to COLUMNS, or else to
- * the terminal's width. */
+/* If standard output is a terminal, folds the output there from now on to COLUMNS, or else to the
+ * terminal's width. */
 void fold_begin(void);
 
-/* What comes is for programs: it is left as it is. */
+/* Later output is for programs: it is not folded. */
 void fold_end(void);
 
 #endif

@@ -25,7 +25,7 @@ __attribute__((format(printf, 2, 3))) static bool refuse(struct input_fault *fau
     return false;
 }
 
-/* What follows "NAME:" if the text begins so, else NULL. */
+/* The text behind "NAME:" if it begins so, else NULL. */
 static const char *after(const char *text, const char *name)
 {
     size_t length = strlen(name);
@@ -148,7 +148,7 @@ bool input_text_read(const char *text, struct percuss_input *input, struct input
     memcpy(input->name, text, name);
     if (at)
         memcpy(input->body, at + 1, body);
-    /* a name that is wrong comes before its numbers, whose unit it decides about */
+    /* a name that is wrong comes before its numbers, because it decides about their unit */
     bool readable = input_text_distribution(equals + 1, input, fault);
     if (!check_name(text, input->name, readable, fault)) {
         free((void *)input->values);

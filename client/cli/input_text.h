@@ -12,7 +12,7 @@ struct input_fault {
 };
 
 /* "V", "uniform:LO:HI", "normal:MEAN:DEVIATION[:LOWEST:HIGHEST]", "log-normal:" the same, or
- * "list:FILE[:COLUMN]", of what input->name says: numbers may have units of that. A list's values
+ * "list:FILE[:COLUMN]", for the quantity input->name: numbers may have its units. A list's values
  * are allocated: free((void *)input->values). False with the reason. */
 bool input_text_distribution(const char *text, struct percuss_input *input,
                              struct input_fault *fault);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* JSON Schema (draft 2020-12) of what is read and written by tables of members. */
+/* JSON Schema (draft 2020-12) of the JSON that is read and written by tables of members. */
 #ifndef PERCUSS_CLI_JSON_SCHEMA_H
 #define PERCUSS_CLI_JSON_SCHEMA_H
 

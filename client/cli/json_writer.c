@@ -18,7 +18,7 @@ json_t *json_number(double number)
     return isfinite(number) ? json_real(number) : json_null();
 }
 
-/* Null for what is not UTF-8. NULL: out of memory, here and below. */
+/* Null for text that is not UTF-8. NULL: out of memory, here and below. */
 static json_t *text(const char *text)
 {
     errno = 0;

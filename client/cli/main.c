@@ -43,7 +43,7 @@ static error_t parse_main(int key, char *text, struct argp_state *state)
     }
 }
 
-/* The commands stand before what else the help says at its end. */
+/* Puts the commands before the other text at the help's end. */
 static char *add_commands(int key, const char *text, void *input)
 {
     (void)input;
@@ -85,7 +85,7 @@ static int run(const char *name, int argc, char **argv, struct common *common)
     return EXIT_USAGE;
 }
 
-/* percuss help, percuss help COMMAND: what --help says there. */
+/* percuss help, percuss help COMMAND: the texts of --help. */
 static int help(int argc, char **argv, struct common *common)
 {
     char title[64], option[] = "--help";

@@ -47,7 +47,7 @@ int others_settle(const struct common *common, struct percuss_client *client)
     if (common_names_server(common) ||
         percuss_servers(client, common_patience(common), &list) != PERCUSS_RESULT_OK)
         return EXIT_ANSWERED;
-    /* who leaves the choice to the load knows that there are several, but not that they differ */
+    /* with a choice by load the user knows that there are several, but not that they differ */
     const bool any = !common->server[0];
     const struct percuss_server *ours = find_ours(&list, client);
     int code = EXIT_ANSWERED;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Who answers, and who else would. */
+/* The server that answers, and the others of the domain. */
 #ifndef PERCUSS_CLI_OTHERS_H
 #define PERCUSS_CLI_OTHERS_H
 
@@ -12,11 +12,11 @@
  * the exit code of a second connection that failed. */
 int others_settle(const struct common *common, struct percuss_client *client);
 
-/* After the server has refused a body: complains whose catalogue that was, and of those that other
- * servers of the domain have. */
+/* After the server has refused a body: names the catalogue of that server, and those of other
+ * servers of the domain. */
 void others_explain(const struct common *common, struct percuss_client *client);
 
-/* The line of a table that says who answered. */
+/* The line of a table that names the server. */
 void print_server_line(const uint8_t server[16], const char *catalogue_revision);
 
 #endif

@@ -30,7 +30,7 @@ static bool can_write_behind(const char *link)
     return can_write(path);
 }
 
-/* A trial leaves what is there, and takes away only what it has made itself. */
+/* The trial leaves an existing file as it is, and removes only a file that it created. */
 static bool can_write(const char *file)
 {
     struct stat there;

@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 /* Ends the process (exit code 2, the option, the file and why) unless the file can be written:
- * asked before there is an answer that could be lost. What is in the file stays there. */
+ * asked before there is an answer that could be lost. The file keeps its content. */
 void output_file_check(const char *option, const char *file, struct argp_state *state);
 
 /* Likewise of a folder, which may not be there yet. */

@@ -20,8 +20,8 @@
 
 enum { NOT_FOUND = 127 };
 
-/* The script is UTF-8 whatever the locale is: in that of C gnuplot warns of signs that it has not.
- * The array is to be freed; NULL: out of memory. */
+/* The script is UTF-8 in any locale: in the C locale gnuplot warns of signs outside ASCII. The
+ * array is to be freed; NULL: out of memory. */
 static char **environment_utf8(void)
 {
     static char utf8[] = "LC_ALL=C.UTF-8";
@@ -78,7 +78,7 @@ static char *plot_draw(FILE *script, const char *file, size_t *size)
         complain("--plot: %s: gnuplot could not be started: %s", file, strerror(errno));
         return NULL;
     }
-    /* gnuplot in a process of its own, whose picture comes through a pipe */
+    /* gnuplot in a process of its own; its picture comes through a pipe */
     pid_t child = fork();
     if (child == 0)
         become_gnuplot(script, pipe_ends[1], variables);
@@ -190,8 +190,7 @@ int plot_begin(struct plot *plot, const struct plot_output *output, unsigned wid
         release(plot);
         return complain_memory();
     }
-    /* what all pictures have in common: grid, axes, colours, legends outside of what they explain
-     */
+    /* common to all pictures: grid, axes, colours, legends outside of the plots */
     fputs("set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n"
           "set datafile missing 'nan'\nset grid lt 1 lw 0.5 lc rgb '#d0d0d0'\nset border 3\n"
           "set tics nomirror out\n"

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* What is wanted; NULL: not. */
+/* The files to write; NULL: not this one. */
 struct plot_output {
     const char *file;   /* the picture */
     const char *folder; /* its data as comma-separated values, and its script */
@@ -51,14 +51,14 @@ void plot_table(struct plot *plot, const char *name, const char *columns);
 /* Writes a text as a gnuplot string; it may have several lines. */
 void plot_text(const struct plot *plot, const char *text);
 
-/* What a file is called where it lies. */
+/* The name of a file without its folder. */
 const char *plot_file_name(const char *path);
 
-/* Lets gnuplot draw what is wanted as a picture, and writes the files. Exit code; complains if
- * there is no gnuplot or something fails. */
+/* Lets gnuplot draw the wanted picture, and writes the files. Exit code; complains if there is no
+ * gnuplot or something fails. */
 int plot_end(struct plot *plot);
 
-/* What an axis must hold. */
+/* The numbers that an axis must hold. */
 struct plot_range {
     double low, high;
 };

@@ -27,7 +27,7 @@ static void write_impacts(struct plot *plot, const struct comparison *comparison
     }
 }
 
-/* What the axes must hold. */
+/* The ranges of the axes. */
 struct axes {
     struct plot_range speed, restitution, areas, count;
 };

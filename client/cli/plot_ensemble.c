@@ -16,7 +16,7 @@
 enum { SPEED_BINS = 16, MOST_DOTS = 5000, FEW_DOTS = 1000, HEIGHT = 480, COLOURS = 4 };
 static const char *const colours[COLOURS] = {"#7fa8d8", "#e0a060", "#70b878", "#b080c8"};
 
-/* What the axis of restitutions must hold: samples or bins, and quantiles with their bounds. */
+/* The range of the axis of restitutions: samples or bins, and quantiles with their bounds. */
 static struct plot_range restitutions_of(const struct ensemble_picture *picture)
 {
     struct plot_range range = PLOT_NOTHING;
@@ -32,7 +32,7 @@ static void write_histogram(struct plot *plot, const struct ensemble_picture *pi
 {
     struct plot_range range = restitutions_of(picture), densities = {0.0, 0.0};
     plot_table(plot, "histogram", "restitution,density,width");
-    /* a density, whose area is 1 */
+    /* a density of area 1 */
     double all = 0.0;
     for (size_t i = 0; i < picture->bins; i++)
         all += (double)picture->counts[i];
@@ -76,14 +76,15 @@ static void write_distribution(struct plot *plot, const struct ensemble_picture 
         fprintf(plot->data, "%.9g,%.9g\n", picture->curve_values[i], picture->curve_shares[i]);
 }
 
-/* Mean and deviation of the samples within equal intervals of the speed; takes what they reach. */
+/* Mean and deviation of the samples within equal intervals of the speed; widens the range by them.
+ */
 static void write_bands(struct plot *plot, const struct ensemble_picture *picture,
                         const struct plot_range *speeds, struct plot_range *reach)
 {
     double width = (speeds->high - speeds->low) / SPEED_BINS;
     plot_table(plot, "bands", "speed,mean,deviation");
     for (int b = 0; b < SPEED_BINS && width > 0.0; b++) {
-        /* what lies within this interval */
+        /* the samples within this interval */
         double count = 0.0, sum = 0.0, squares = 0.0;
         for (size_t i = 0; i < picture->sample_count; i++) {
             int at = (int)((picture->speeds[i] - speeds->low) / width);
@@ -239,7 +240,7 @@ static void write_sensitivities(struct plot *plot, const struct ensemble_picture
 int plot_ensemble(const struct plot_output *output, const struct ensemble_picture *picture)
 {
     struct plot plot;
-    /* a panel for each of what there is */
+    /* a panel for each part that the reply has */
     size_t panels = (picture->bins > 0) + (picture->quantile_count > 0) +
                     (picture->sample_count > 0) + (picture->input_count > 0);
     unsigned rows = panels > 3 ? 2 : 1, columns = (unsigned)(panels + rows - 1) / rows;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* An ensemble as a picture: the restitution against the speed with its intervals, its histogram and
- * distribution, and what the spread comes from. */
+ * distribution, and the causes of the spread. */
 #ifndef PERCUSS_CLI_PLOT_ENSEMBLE_H
 #define PERCUSS_CLI_PLOT_ENSEMBLE_H
 
@@ -16,7 +16,7 @@ struct index_share {
     double value, low, high;
 };
 
-/* What one input causes, by itself and with its interactions. */
+/* The share of one input, by itself and with its interactions. */
 struct input_share {
     const char *name;
     struct index_share first_order, total;

@@ -25,7 +25,7 @@ static const char *const dark[STYLES] = {"#606060", "#101010", "#a0a0a0", "#7a6a
 /* Pixels of one impact, and of the axis before the first. */
 enum { WIDTH = 900, NARROW = 520, AXIS = 100, GAP = 30, HEIGHT = 960 };
 
-/* The three panels of an impact, from above: what of the height, and where it begins. The first has
+/* The three panels of an impact, from above: share of the height, and lower edge. The first has
  * room for the legend. */
 enum { DISPLACEMENT, VELOCITY, FORCE, PANELS };
 static const double heights[PANELS] = {0.42, 0.27, 0.25}, origins[PANELS] = {0.515, 0.255, 0.01};
@@ -100,7 +100,7 @@ static void write_measured(struct plot *plot, const struct impact_picture *pictu
     }
 }
 
-/* What the axes of all impacts must hold: time, and each panel's numbers. */
+/* The ranges of the axes of all impacts: time, and each panel's numbers. */
 struct axes {
     struct plot_range time, values[PANELS];
 };
@@ -143,7 +143,7 @@ static struct axes take_axes(const struct impact_picture *picture)
 {
     struct axes axes = {PLOT_NOTHING, {PLOT_NOTHING, PLOT_NOTHING, PLOT_NOTHING}};
     const size_t count = picture->speed_count * picture->model_count;
-    /* the time of all of them, then what they do meanwhile */
+    /* the time of all of them, then the numbers of each panel */
     for (size_t k = 0; k < count; k++) {
         const struct plot_range times = drawn_times(&picture->runs[k]);
         plot_range_take(&axes.time, times.low);
@@ -156,7 +156,7 @@ static struct axes take_axes(const struct impact_picture *picture)
     return axes;
 }
 
-/* What is on the axis of time. */
+/* Writes the data along the axis of time. */
 static void write_run(struct plot *plot, const struct impact_picture *picture, size_t k,
                       const struct axes *axes)
 {
@@ -245,7 +245,7 @@ static void write_lines(const struct plot *plot, const struct impact_picture *pi
     fputc('\n', plot->script);
 }
 
-/* What the contact did, above the legend. */
+/* Writes the contact's results above the legend. */
 static void write_heading(const struct plot *plot, const struct impact_picture *picture,
                           size_t speed, double middle)
 {

@@ -17,14 +17,14 @@ struct impact_run {
     struct percuss_trace trace;
 };
 
-/* What was measured, and the file it comes from. */
+/* A measured history, and its file. */
 struct impact_measured {
     struct history_motion motion;
     const char *file;
 };
 
-/* What stands in one picture: beside each other `speed_count` impacts, each by `model_count`
- * contact models over each other. */
+/* One picture: beside each other `speed_count` impacts, each by `model_count` contact models over
+ * each other. */
 struct impact_picture {
     size_t speed_count, model_count;
     const struct impact_run *runs; /* of the first speed all models, then of the next */

@@ -11,8 +11,8 @@
 /* Pixels of one body's panels and the axis before the first; curves have six colours. */
 enum { WIDTH = 900, NARROW = 560, AXIS = 100, GAP = 30, HEIGHT = 860, COLOURS = 6 };
 
-/* What of the height the panels take, and where they begin: restitution, with room for the legend,
- * over numbers of sub-impacts. */
+/* Shares of the height and lower edges of the panels: restitution, with room for the legend, over
+ * numbers of sub-impacts. */
 static const double HIGH = 0.565, LOW = 0.35, UPPER = 0.365, LOWER = 0.01;
 
 static bool bodies_differ(const struct sweep_points *points)
@@ -44,7 +44,7 @@ static void write_curve(struct plot *plot, const struct sweep_points *points, si
     }
 }
 
-/* Restitutions that were measured; what is known by its impulse alone is no point here. */
+/* Restitutions that were measured; an impact known by its impulse alone is no point here. */
 static void write_measured(struct plot *plot, const struct sweep_points *points, size_t k)
 {
     const struct measured_set *set = &points->measured[k].set;
@@ -56,7 +56,7 @@ static void write_measured(struct plot *plot, const struct sweep_points *points,
                 set->impacts[i].sub_impacts);
 }
 
-/* What the axes of all panels must hold. */
+/* The ranges of the axes of all panels. */
 struct axes {
     struct plot_range speed, restitution, count;
 };
@@ -88,7 +88,7 @@ static struct axes take_axes(const struct sweep_points *points)
 struct group {
     const struct sweep_points *points;
     const char *b;
-    bool bodies, models; /* what tells curves apart in the legend */
+    bool bodies, models; /* by which the legend tells curves apart */
 };
 
 static bool holds(const struct group *group, size_t k)
@@ -120,7 +120,7 @@ static void write_points(const struct plot *plot, const struct group *group, int
     }
 }
 
-/* What tells the curve apart: the body, the model or both. */
+/* Writes the curve's title: the body, the model or both. */
 static void write_title(const struct plot *plot, const struct group *group, size_t k)
 {
     const struct sweep_curve *curve = &group->points->curves[k];

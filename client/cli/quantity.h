@@ -11,7 +11,7 @@
 
 #include "base/units.h"
 
-/* What is allowed, and what was wrong. */
+/* The allowed range, and the fault. */
 struct quantity_fault {
     char text[200];
 };
@@ -32,7 +32,7 @@ double parse_quantity(const char *option, const char *text, enum quantity quanti
 double parse_positive_quantity(const char *option, const char *text, enum quantity quantity,
                                struct argp_state *state);
 
-/* What the number of that name is of: an uncertain input, a parameter of a body. */
+/* The quantity of a name: of an uncertain input, or of a parameter of a body. */
 enum quantity quantity_of(const char *name);
 
 #endif

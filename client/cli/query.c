@@ -29,8 +29,8 @@
 /* Sixteen replicates of 32 points tell the deviation to a few per cent, within some 20 ms. */
 enum { SAMPLES = 512 };
 
-/* What is left of the restitution's certainty when the speed is known with a standard deviation
- * only: a small ensemble around the impact, whose contact 0 approaches at `speed`. */
+/* The spread of the restitution by a standard deviation of the speed: asks for a small ensemble
+ * around the impact, whose contact 0 approaches at `speed`. */
 static enum percuss_result spread_ask(struct percuss_client *client,
                                       const struct percuss_request *request, double speed,
                                       double deviation, double timeout,
@@ -113,8 +113,8 @@ static void reply_csv_head(const char *lead, bool units)
     putchar('\n');
 }
 
-/* Prints a line for each sub-impact that is listed, with what is of its contact before it (a
- * contact without one has a line too), on stdout, behind `lead`; message and warnings to stderr. */
+/* Prints a line for each sub-impact that is listed, with its contact's columns before it (a contact
+ * without one has a line too), on stdout, behind `lead`; message and warnings to stderr. */
 static void reply_csv_print(const char *lead, const struct percuss_request *request,
                             const struct percuss_reply *reply)
 {
@@ -193,7 +193,7 @@ static void query_output_add(struct query_output *output, const struct impact_ru
     output->count++;
 }
 
-/* Prints what is left. */
+/* Prints the end of the output. */
 static void query_output_end(struct query_output *output)
 {
     if (output->answers)
@@ -253,7 +253,7 @@ static const struct argp_option options[] = {
     {0},
 };
 
-/* What is made of one answer alone. */
+/* Refuses outputs that are of one answer alone. */
 static void check_several(const struct query *query, struct argp_state *state)
 {
     const struct scene *scene = &query->scene;
@@ -428,7 +428,7 @@ static void end(struct asking *asking)
     percuss_client_free(asking->client);
 }
 
-/* Names what is known after the server refused a body. */
+/* Names the known bodies after the server refused one. */
 static void explain_unknown(const struct asking *asking, const struct percuss_request *request)
 {
     const struct common *common = asking->query->common;
@@ -453,7 +453,7 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
             : percuss_solve(asking->client, &run->request, timeout, &run->reply);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
-    /* what the spread of the speed does to the answer */
+    /* the spread of the answer by that of the speed */
     bool spreads = query->speed_sigma > 0.0 && run->reply.contact_count > 0;
     if (spreads)
         result =
@@ -469,7 +469,7 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
                                        : complain_result(result);
 }
 
-/* Files of the histories; what was refused has none. */
+/* Files of the histories; a refused one has none. */
 static int write_files(const struct asking *asking)
 {
     const struct query *query = asking->query;
@@ -492,7 +492,7 @@ static int write_files(const struct asking *asking)
     return code;
 }
 
-/* Prints the end of what `ask` has printed, and writes files; the exit code of both. */
+/* Ends the output that `ask` began, and writes files; the exit code of both. */
 static int finish(struct asking *asking, int code)
 {
     query_output_end(&asking->output);

@@ -55,7 +55,7 @@ static double approach_of(const struct percuss_request *request,
     return -rate;
 }
 
-/* What was asked: speed, place, ends and materials. */
+/* The question: speed, place, ends and materials. */
 static void print_question(const struct percuss_request *request, size_t i,
                            const struct scene_text *scene)
 {
@@ -93,7 +93,7 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
                1e6 * (sub->end - sub->start), sub->impulse, 100.0 * sub->impulse / contact->impulse,
                sub->peak_force, 1e6 * sub->max_indentation, sub->negligible ? "  negligible" : "");
     }
-    /* what is not shown */
+    /* the hidden sub-impacts */
     if (hidden)
         printf("  ... and %u negligible ones (--json lists them)\n", hidden);
     if (contact->sub_impacts_listed < contact->sub_impact_count)

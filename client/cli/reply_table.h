@@ -9,12 +9,12 @@
 
 #include "scene.h"
 
-/* Prints the answer to stdout; message and warnings to stderr. `request` is what was asked, `scene`
- * says it in words; NULL: a whole request was asked. */
+/* Prints the answer to stdout; message and warnings to stderr. `request` is the question, `scene`
+ * the same in words; NULL: a whole request was asked. */
 void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply,
                        const struct scene_text *scene);
 
-/* Prints what a status that is not OK means, and the warnings, to stderr. */
+/* Prints the meaning of a status that is not OK, and the warnings, to stderr. */
 void reply_table_tell(const struct percuss_reply *reply);
 
 /* Estimated error of the restitution: time steps and modes together; NAN: unknown. */

@@ -28,7 +28,7 @@ struct json_path {
     size_t index;
 };
 
-/* Appends to a text of `size` bytes and cuts what does not fit. */
+/* Appends to a text of `size` bytes, cut to fit. */
 static void append(char *text, size_t size, const char *format, ...)
 {
     size_t length = strlen(text);
@@ -61,7 +61,7 @@ json_fail(struct json_fault *fault, const struct json_path *path, const char *fo
     va_start(arguments, format);
     vsnprintf(fault->text + length, sizeof fault->text - length, format, arguments);
     va_end(arguments);
-    /* what the file holds goes to a terminal */
+    /* text of the file goes to a terminal */
     for (char *c = fault->text; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f)
             *c = '?';
@@ -147,7 +147,7 @@ static bool read_choice(const json_t *value, const struct json_path *path,
     return json_fail(fault, path, "'%s' is not one of: %s", given, allowed);
 }
 
-/* In the order of the parameters, whatever theirs is. */
+/* In the order of the parameters, not in that of the file. */
 static bool read_overrides(const json_t *object, const struct json_path *path,
                            const struct json_member *member, struct percuss_body_motion *body,
                            struct json_fault *fault)

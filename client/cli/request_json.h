@@ -29,7 +29,7 @@ bool request_json_read(const json_t *root, struct json_request *request, struct 
 /* The same from a file, or standard input for "-"; also false for text that is not JSON. */
 bool request_json_load(const char *file, struct json_request *request, struct json_fault *fault);
 
-/* The JSON Schema of what is read; the caller releases it. */
+/* The JSON Schema of a request; the caller releases it. */
 json_t *request_schema(void);
 
 #endif

@@ -45,7 +45,7 @@ static const struct argp_option scene_options[] = {
     {0},
 };
 
-/* The number whose name was given. */
+/* The number that the name stands for. */
 static unsigned parse_choice(const char *option, const char *text, unsigned count,
                              const char *(*name_of)(unsigned), struct argp_state *state)
 {
@@ -361,7 +361,7 @@ struct scene_text scene_describe(const struct scene *scene, const struct scene_b
     describe_place(scene, pair, 0, of_a, sizeof of_a);
     if (*of_a)
         ADD(text.place, "%s%s", text.place[0] ? ", " : "", of_a);
-    /* all in one line, without what is typed */
+    /* all in one line, without the options in brackets */
     describe_body(pair->a, text.title, sizeof text.title);
     ADD(text.title, " on ");
     describe_body(pair->b, text.title, sizeof text.title);

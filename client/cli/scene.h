@@ -29,7 +29,7 @@ struct scene {
 /* Parses --a, --b, --at, --tolerance, ... into the `struct scene` that is its input. */
 extern const struct argp scene_argp;
 
-/* What else a command needs beside --a and --b: "--speed V", and whether it was given. */
+/* Another need of a command besides --a and --b: "--speed V", and whether it was given. */
 struct scene_need {
     const char *what;
     bool given;

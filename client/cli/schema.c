@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss schema: what JSON the program reads and prints. */
+/* percuss schema: the JSON that the program reads and prints. */
 
 #include <jansson.h>
 #include <string.h>
@@ -283,7 +283,7 @@ static json_t *body_schema(void)
     };
     json_t *schema = OBJECT(members);
     json_t *properties = json_object_get(schema, "properties");
-    /* what a request may override */
+    /* parameters that a request may override */
     for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
         if (p != PERCUSS_PARAMETER_RADIUS)
             json_object_set_new(properties, percuss_parameter_name(p),
@@ -391,7 +391,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = choice->common;
         return 0;
-    /* of what: the first argument alone */
+    /* the kind of JSON: the first argument alone */
     case ARGP_KEY_ARG:
         for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
             if (!choice->kind && !strcmp(kinds[i].name, text))

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* How to start a server: with what lies beside this program, built or installed. */
+/* How to start a server: with the files beside this program, built or installed. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static const struct {
     const char *daemon, *settings;
 } places[] = {{"percussd", "../../config/percussd.yaml"}, {INSTALLED_DAEMON, INSTALLED_SETTINGS}};
 
-/* What the package of the daemon installs, from the folder of the package's percuss. */
+/* A file of the daemon's package, from the folder of the package's percuss. */
 static const char UNIT[] = "../lib/systemd/system/percussd.service";
 static const char UNIT_SETTINGS[] = "../../etc/percuss/percussd.yaml";
 

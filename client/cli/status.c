@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss status: what the servers of the domain announce. */
+/* percuss status: the announcements of the domain's servers. */
 
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ static void print_json(const struct percuss_server_list *list)
     json_print(root);
 }
 
-/* What was seen at the last look, to tell how fast it goes. */
+/* The state at the last look, for the rate of progress. */
 struct last_look {
     uint8_t server[16];
     uint64_t answered;
@@ -47,7 +47,7 @@ static void print_task(const struct percuss_task *task)
     format_hex(task->client, client);
     printf("            %s  %-8s  ", task->running ? "running" : "waiting",
            percuss_task_kind_name(task->kind));
-    /* who waits for it, if anybody does */
+    /* the client that waits for it, if any */
     if (task->kind == PERCUSS_TASK_MESH)
         printf("%-20s", "");
     else
@@ -167,8 +167,7 @@ int command_status(int argc, char **argv, struct common *common)
         return code;
     if (!percuss_client_observes(client))
         code = connect_client(common, client);
-    /* what a server announces that does not answer is of interest, too; who watches may wait for
-     * one */
+    /* announcements of a server that does not answer count, too; --watch may wait for a server */
     if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT && looks.period == 0.0) {
         percuss_client_free(client);
         return code;

@@ -109,7 +109,7 @@ static void show_progress(const struct sweep_run *run, double *shown)
         fputc('\n', stderr);
 }
 
-/* Waits for any reply, as long as nobody interrupts. PENDING: he has. In this process waiting is
+/* Waits for any reply, until an interrupt. PENDING: interrupted. In this process waiting is
  * solving, which must not begin anew at every look. */
 static enum percuss_result await(struct sweep_run *run, struct percuss_reply *reply)
 {
@@ -155,8 +155,8 @@ static int take_point(struct sweep_run *run)
     return tell(run) ? EXIT_ANSWERED : EXIT_FAILURE;
 }
 
-/* Asks for the points from `first` on; what is set above `replies` is the caller's. Exit code;
- * complains. Whatever it is, the points below `told` are there. To be released. */
+/* Asks for the points from `first` on; members above `replies` are the caller's. Exit code;
+ * complains. With any code the points below `told` are there. To be released. */
 static int sweep_run_ask(struct sweep_run *run)
 {
     double shown = 0.0;
@@ -227,7 +227,7 @@ static bool next_line(struct reading *reading)
     return true;
 }
 
-/* What a function would write, without the end of the line; NULL: no memory. */
+/* The line that a row or the head becomes, without its end; NULL: no memory. */
 static char *line_of(const struct sweep_points *points, size_t k, unsigned i, bool head)
 {
     char *text = NULL;
@@ -307,9 +307,9 @@ static int read_rows(struct reading *reading, struct sweep_curve *curves)
     return EXIT_ANSWERED;
 }
 
-/* Opens the file, or begins it, for the rows that it lacks. What it holds becomes `rows` and `done`
- * of the curves: it must be the beginning of this very sweep, row by row; a last line that was cut
- * is taken away. Exit code; complains. The caller closes *file. */
+/* Opens the file, or begins it, for the rows that it lacks. Its rows become `rows` and `done` of
+ * the curves: it must be the beginning of this very sweep, row by row; a last line that was cut is
+ * taken away. Exit code; complains. The caller closes *file. */
 static int sweep_file_open(const char *name, const struct sweep_points *points,
                            struct sweep_curve *curves, FILE **file)
 {
@@ -321,7 +321,7 @@ static int sweep_file_open(const char *name, const struct sweep_points *points,
     }
     rewind(reading.file);
     int code = read_rows(&reading, curves);
-    /* what was cut goes; what comes is added at the end */
+    /* a cut line is removed; new lines are added at the end */
     if (code == EXIT_ANSWERED && ftruncate(fileno(reading.file), reading.good) != 0) {
         complain("--resume: %s: %s", name, strerror(errno));
         code = EXIT_FAILURE;
@@ -338,8 +338,8 @@ static int sweep_file_open(const char *name, const struct sweep_points *points,
     return EXIT_ANSWERED;
 }
 
-/* Whether row i of curve k, asked for again, is to the last bit what the file holds. False: the
- * file has the answers to another question; complains. */
+/* Whether row i of curve k, asked for again, is to the last bit that of the file. False: the file
+ * has the answers to another question; complains. */
 static bool sweep_file_agrees(const char *name, const struct sweep_points *points, size_t k,
                               unsigned i, const struct percuss_reply *again)
 {
@@ -437,11 +437,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[2] = &sweep->plot;
         state->child_inputs[3] = &sweep->measured.columns;
         return 0;
-    /* what is swept */
+    /* the speeds */
     case KEY_SPEED:
         parse_speeds(text, sweep, state);
         return 0;
-    /* what is read and written */
+    /* the files */
     case KEY_CSV:
         sweep->csv = true;
         return 0;
@@ -509,7 +509,7 @@ static bool take_warnings(struct work *work, unsigned i, const struct percuss_re
     return tally_take(&work->tally, reply, place);
 }
 
-/* What a point has brought, where it belongs: who ends the program has all of them. */
+/* Writes a point's results at once, so that an early end loses none. */
 static bool put_out(void *context, unsigned i)
 {
     struct work *work = context;
@@ -571,7 +571,7 @@ static int open_file(struct work *work)
     return agrees ? EXIT_ANSWERED : EXIT_USAGE;
 }
 
-/* Asks for what there is not yet; the worst of all curves decides about the exit code. */
+/* Asks for the missing points; the worst of all curves decides about the exit code. */
 static int ask_all(struct work *work)
 {
     int code = EXIT_ANSWERED, worst = EXIT_ANSWERED;

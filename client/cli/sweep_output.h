@@ -31,7 +31,7 @@ struct sweep_measurements {
     struct column_map columns; /* of all files */
 };
 
-/* Takes "FILE" or "ID=FILE". What is wrong ends the process through argp_error, here and below. */
+/* Takes "FILE" or "ID=FILE". A fault ends the process through argp_error, here and below. */
 void sweep_measured_add(struct sweep_measurements *measurements, const char *text,
                         struct argp_state *state);
 

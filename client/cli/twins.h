@@ -27,11 +27,11 @@ void twins_close(struct twins *twins);
 int twins_ask(struct twins *twins, const struct measured_set *set,
               const struct twin_changes *changes, struct twin *list);
 
-/* Who takes the answers of twin_ask; then the exit code of how it ended. Complain. */
+/* The listener that takes the answers of twin_ask; then the exit code of its end. Complain. */
 struct twin_listener twins_listener(struct twins *twins);
 int twins_code(const struct twins *twins, enum percuss_result result);
 
-/* Completes what was measured with the masses that the server knows. Exit code; complains where
+/* Completes the measured impacts with the masses that the server knows. Exit code; complains where
  * histories of a body that bends cannot tell the impulse. */
 int twins_complete(const struct twins *twins, struct measured_set *set, const struct twin *list);
 

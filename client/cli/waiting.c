@@ -10,14 +10,14 @@
 #include <time.h>
 #include <unistd.h>
 
-/* s: who is answered sooner sees nothing; between two drawings, and two looks at what the server
- * says, which it does once a second */
+/* s: before that nothing is shown; between two drawings, and two looks at the server's status,
+ * which comes once a second */
 static const double UNSHOWN = 1.0, REDRAW = 0.1, LOOK = 0.5;
 
 static volatile sig_atomic_t interrupted; /* by that signal */
 
 static struct {
-    struct percuss_client *client; /* NULL: nobody waits */
+    struct percuss_client *client; /* NULL: no call waits */
     const char *what;
     size_t count;
     bool is_seen, asks_server;
@@ -38,7 +38,7 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* What of ours the server does, or else has to do. */
+/* Finds our task that the server computes, or else one in its queue. */
 static void look(void)
 {
     uint8_t id[16];
