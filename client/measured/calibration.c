@@ -12,8 +12,8 @@
 enum { LEAST_ROUNDS = 3, MOST_ROUNDS = 6 };
 /* Done when a round moves no parameter by more than this share of its standard deviation. */
 static const double SETTLED = 0.3;
-/* Before the first round the parameters may be far off: only what has nothing to do with the
- * reading is left out. */
+/* Before the first round the parameters may be far off: only a model far from the reading leaves it
+ * out. */
 static const double FAR = 0.3;
 static const double OUTLIER = 4.0;
 /* Below the solver's own accuracy no reading counts. */
@@ -23,7 +23,7 @@ static const double LEAST_NOISE = 1e-5;
 static const double DIFFERENCE = 1e-2;
 /* A reading takes part where the model is smooth. Within this change of a parameter it changes by
  * not more than so many times as much, and bends by no more than a cube does: near the birth of a
- * sub-impact it jumps instead, and its derivative would promise what the data do not hold. */
+ * sub-impact it jumps instead, and its derivative would promise more than the data hold. */
 static const double NEIGHBOURHOOD = 0.02, STEEPEST = 5.0, BEND_OF_A_CUBE = 6.0;
 /* The same for the speed, which was measured with an error: so many standard deviations of it. */
 static const double SPEED_DEVIATIONS = 2.0;
@@ -202,7 +202,7 @@ static bool solve_rounds(struct round *round, double *room, struct calibration *
                 round->noise[q] = calibration->noise[q] = scatter(round, q, room);
             allowed[q] = OUTLIER * round->noise[q];
         }
-        /* until no parameter moves by what would matter */
+        /* until no parameter moves much */
         settled = k + 1 >= LEAST_ROUNDS;
         for (size_t i = 0; i < problem->parameters; i++)
             settled = settled && fabs(calibration->fit.x[i] - before[i]) <=

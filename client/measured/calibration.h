@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Fits parameters of a model to measured impacts by what is robust in them: the impulse and the
+/* Fits parameters of a model to measured impacts by their robust quantities: the impulse and the
  * duration of the first sub-impact and the start of the second. The restitution of a sequence of
  * sub-impacts is chaotic in the parameters and takes no part. */
 #ifndef PERCUSS_MEASURED_CALIBRATION_H
@@ -29,7 +29,7 @@ struct calibration {
     struct fit fit;
     size_t known[QUANTITIES]; /* readings of each quantity */
     size_t used[QUANTITIES];  /* those that are fitted */
-    double noise[QUANTITIES]; /* relative standard deviation of what remains */
+    double noise[QUANTITIES]; /* relative standard deviation of the residuals */
 };
 
 /* Starts from calibration->fit.x. Three to six rounds: each weighs a quantity by the scatter that

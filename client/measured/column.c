@@ -14,7 +14,7 @@
 const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0", 100.0,
                       "is a unit missing, such as mm/s?"},
-    /* 0..1 but for what a reading scatters, and for bodies that vibrate before */
+    /* 0..1 but for the scatter of readings, and for bodies that vibrate before */
     [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, -1.0, 2.0,
                             "a number -1..2", 1.0,
                             "only a body that vibrated before the impact gives so much back"},
@@ -151,7 +151,7 @@ static const char *const SPELLINGS[][2] = {
 void column_unit(const char *text, char unit[UNIT_SIZE])
 {
     size_t length = strlen(text), size = 0;
-    /* without what is around it */
+    /* without blanks and brackets around it */
     while (length > 0 && strchr(" [(", *text)) {
         text++;
         length--;
@@ -186,7 +186,7 @@ enum units_problem column_number(const struct column_kind *kind, const char *num
     size_t length = strnlen(number, CELL_SIZE);
     bool marked = is_share && length > 0 && number[length - 1] == '%' && (!*unit || *unit == '%');
     length -= marked;
-    /* a share of something is to it what a centimetre is to a metre */
+    /* read as a length: a per cent is 0.01 as a centimetre is 0.01 m */
     bool share = is_share && (marked || !strcmp(unit, "%"));
     snprintf(text, sizeof text, "%.*s %s", (int)length, number, share ? "cm" : unit);
     return units_read(text, share ? QUANTITY_LENGTH : kind->quantity, value);
@@ -200,7 +200,7 @@ enum units_problem column_accepts(const struct column_kind *kind, const char *un
     return column_number(kind, "1", unit, &one);
 }
 
-/* What stands before, without what leads over to the unit. */
+/* The name before the unit, without the separators between them. */
 static void take_name(const char *heading, size_t length, char name[HEADING_SIZE])
 {
     while (length > 0 && strchr(" /", heading[length - 1]))

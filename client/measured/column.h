@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Columns that are known by name, and what a file calls them. */
+/* Columns that are known by name, and their headings in a file. */
 #ifndef PERCUSS_MEASURED_COLUMN_H
 #define PERCUSS_MEASURED_COLUMN_H
 
@@ -14,8 +14,8 @@ struct column_kind {
     enum quantity quantity;
     double low, high;
     const char *allowed;  /* in words */
-    double usual;         /* what is above it is possible but improbable; 0: nothing is */
-    const char *question; /* what to think of then */
+    double usual;         /* a larger number is possible but improbable; 0: none is */
+    const char *question; /* the likely cause then */
 };
 
 /* Those of a file of impacts, and of one of time histories. */
@@ -45,7 +45,7 @@ extern const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS], HISTORY_KINDS[HIST
 
 enum { HEADING_SIZE = 128, UNIT_SIZE = 48 };
 
-/* What the user says of a column. */
+/* A column as the user describes it. */
 struct column_choice {
     const struct column_kind *kind;
     char heading[HEADING_SIZE]; /* or the column's number from 1 on */

@@ -53,7 +53,7 @@ static double largest_difference(const struct pooled *all, size_t nx, size_t ny)
  * share of all paths from (0, 0) to (i, j) that do so all the way. */
 static double exact_below(double d, size_t nx, size_t ny, double *u)
 {
-    /* what d is up to rounding counts as reached */
+    /* differences equal to d up to rounding count as reached */
     double limit = d - 1e-9 / ((double)nx * (double)ny);
     for (size_t i = 0; i <= nx; i++) {
         for (size_t j = 0; j <= ny; j++) {

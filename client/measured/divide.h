@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* How a line is divided into cells, and what a cell says. */
+/* The division of a line into cells, and the reading of a cell. */
 #ifndef PERCUSS_MEASURED_DIVIDE_H
 #define PERCUSS_MEASURED_DIVIDE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Separators in the order in which they are tried: whoever writes one of the first has no cells
+/* Separators in the order in which they are tried: a file divided by one of the first has no cells
  * with it. A blank stands for any number of blanks and tabs. */
 extern const char DIVIDE_SEPARATORS[]; /* "\t;, " */
 

@@ -183,7 +183,7 @@ bool fit_solve(const struct fit_problem *problem, struct fit *fit)
               CLOSE_ENOUGH, 0.0, MOST_EVALUATIONS, problem->difference * problem->difference, scale,
               2, 1.0, 0, &evaluations, memory.jacobian, (int)m, memory.pivot, memory.qtf,
               memory.work[0], memory.work[1], memory.work[2], memory.work_long);
-    /* what is left, and what it says of the parameters */
+    /* the residuals, and the intervals of the parameters by them */
     if (info > 0) {
         fit->evaluations = (unsigned)evaluations;
         fit->freedom = (double)(m - n);

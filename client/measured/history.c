@@ -33,7 +33,7 @@ void history_free(struct history *history)
 struct search {
     const struct history *history;
     double acceleration;  /* of A in flight, m/s^2 */
-    double *v;            /* [count]: A's velocity less what that makes of it */
+    double *v;            /* [count]: A's velocity less that of the acceleration */
     size_t count, window; /* readings on each side that are compared */
     double *sum;          /* [count + 1]: running sums of v */
     double noise;
@@ -125,8 +125,8 @@ static size_t find_ranges(const struct search *search, struct range *ranges, siz
     return count;
 }
 
-/* Drops ranges whose jump does not stand out of the means on both sides; the flights between the
- * others are left in ranges. Returns how many ranges stay. */
+/* Drops ranges with a jump that does not stand out of the means on both sides; the flights between
+ * the others are left in ranges. Returns how many ranges stay. */
 static size_t keep_significant(const struct search *search, struct range *ranges, size_t count)
 {
     for (size_t k = 0; k < count;) {
@@ -277,7 +277,7 @@ static bool fit_acceleration(const struct search *search, const struct range *ra
     return true;
 }
 
-/* What A's velocity would be without an acceleration. */
+/* Computes A's velocity without the acceleration. */
 static void level(struct search *search, double acceleration)
 {
     search->acceleration = acceleration;
@@ -298,7 +298,7 @@ static size_t find_contacts(struct search *search, struct range *ranges,
         return 0;
     }
     choose_window(search);
-    /* where the velocity changes, if what comes before is a flight */
+    /* changes of the velocity, if a flight comes before them */
     size_t count = find_ranges(search, ranges, HISTORY_SUB_IMPACTS);
     if (count > 0 && ranges[0].first < search->window + LEAST_FLIGHT) {
         measured_fail(fault, "time: begins %zu readings before the impact: more are needed",
@@ -354,7 +354,7 @@ static bool find_acceleration(struct search *search, double *acceleration)
         }
         jump = largest_step(search, search->window);
     }
-    /* what changes the velocity by less than a jump's least share is not told from its ends */
+    /* a change of velocity below a jump's least share is not told from its ends */
     double change = fabs(*acceleration) * 0.5 * longest;
     if (fabs(*acceleration) <= ACCELERATED * deviation || change <= LEAST_SHARE * jump)
         *acceleration = 0.0;
@@ -374,7 +374,7 @@ static struct line flight_line(const struct search *search, double *levelled, st
     return line_of(search, levelled, flight);
 }
 
-/* Root mean square of what the velocities depart from their flights' lines. */
+/* Root mean square of the velocities' departures from their flights' lines. */
 static double find_misfit(const struct search *search, const struct range *ranges, size_t count)
 {
     double squares = 0.0, readings = 0.0;
@@ -453,7 +453,7 @@ static bool measure(const struct search *search, const struct range *ranges, siz
                              "velocity_a: between contacts it misses even motion and even "
                              "acceleration (%.4g m/s^2) by %.2g m/s: must be at most %.2g m/s",
                              search->acceleration, misfit, allowed);
-    /* and what is between them */
+    /* and the flights between them */
     struct line lines[HISTORY_SUB_IMPACTS + 1];
     double *levelled = calloc(search->count, sizeof *levelled);
     if (!levelled)

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Time histories of the bodies' motion along the normal, as from laser-Doppler vibrometers, and
- * what they say of the impact. */
+/* Time histories of the bodies' motion along the normal, as from laser-Doppler vibrometers, and the
+ * impact that they show. */
 #ifndef PERCUSS_MEASURED_HISTORY_H
 #define PERCUSS_MEASURED_HISTORY_H
 
@@ -63,8 +63,8 @@ struct history_motion {
     double *velocity[2], *displacement[2]; /* of A, of B; B's NULL: not measured */
 };
 
-/* From what history_find said of it; displacements are the velocities' integrals. False: out of
- * memory. */
+/* By the result of history_find; displacements are the velocities' integrals. False: out of memory.
+ */
 bool history_align(const struct history *history, const struct history_impacts *impacts,
                    struct history_motion *motion);
 

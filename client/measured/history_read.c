@@ -82,7 +82,7 @@ static void check_order(const struct table *table, size_t row, const struct choi
                       text_name(table->layout.source->file), table->numbers[row], time[count]);
 }
 
-/* Returns how many readings there are; what is wrong is said. */
+/* Returns the number of readings; names faults. */
 static size_t take_readings(struct table *table, const struct choice *choice,
                             struct measured_remarks *remarks)
 {
@@ -97,7 +97,7 @@ static size_t take_readings(struct table *table, const struct choice *choice,
         else if (remarks->errors == errors)
             left_out_add(&left, table->numbers[row]);
     }
-    /* a gap hides what happened in it */
+    /* a gap hides an event in it */
     left_out_tell(&left, "readings that are not there", text, sizeof text);
     if (10 * left.count > table->rows)
         remarks_wrong(remarks, "%s: %zu of %zu rows: %s: must be at most a tenth", file, left.count,
@@ -123,7 +123,7 @@ static bool make_room(const struct table *table, struct choice *choice)
     return good;
 }
 
-/* Differences of what are displacements; false: out of memory. */
+/* Differences of displacements; false: out of memory. */
 static bool derive(const struct choice *choice, struct history *history)
 {
     bool good = true;

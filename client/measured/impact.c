@@ -25,7 +25,7 @@ static const size_t OFFSETS[IMPACT_HISTORY] = {
     [IMPACT_V_OUT] = offsetof(struct measured_impact, v_out),
 };
 
-/* What a row may lack. */
+/* The numbers that a row may lack. */
 enum { LACKS_SPEED, LACKS_OUTCOME, LACKS };
 static const char *const REASONS[LACKS] = {"no speed", "no restitution, v_out, impulse or history"};
 
@@ -104,7 +104,7 @@ static bool find_history(const char *file, const char *name, const struct column
     return good || remarks_wrong(remarks, "%s: %.400s", path, reason.text);
 }
 
-/* What a history says of an impact stands where the row says nothing. */
+/* Fills the unknown numbers of a row by its history. */
 static void fill_unknown(const struct measured_impact *told, struct measured_impact *impact)
 {
     double *to = (double *)impact;
@@ -114,7 +114,7 @@ static void fill_unknown(const struct measured_impact *told, struct measured_imp
             to[i] = from[i];
 }
 
-/* What a row says of one impact, of all of several bounces only the place. */
+/* Refuses numbers of one impact in a row of several bounces: only the place is of all. */
 static bool check_several(const char *file, size_t line, const struct measured_impact *impact,
                           struct measured_remarks *remarks)
 {
@@ -162,7 +162,7 @@ static bool read_row(struct table *table, size_t row, struct measured_impact *im
         good =
             table_number(table, row, k, (double *)((char *)impact + OFFSETS[k]), remarks) && good;
     good = good && take_v_out(table, row, impact, remarks);
-    /* what its history adds */
+    /* the numbers that its history adds */
     if (*history && !cell_is_missing(history))
         good = find_history(source->file, history, source->map, found, remarks) && good;
     for (size_t k = 1; good && k < found->count; k++)
@@ -171,7 +171,7 @@ static bool read_row(struct table *table, size_t row, struct measured_impact *im
     return good;
 }
 
-/* What the impact lacks of the least that it must tell; LACKS: nothing. */
+/* The necessary number that the impact lacks; LACKS: none. */
 static int find_lack(const struct measured_impact *impact)
 {
     if (isnan(impact->speed))
@@ -181,7 +181,7 @@ static int find_lack(const struct measured_impact *impact)
     return outcome ? LACKS : LACKS_OUTCOME;
 }
 
-/* False with what is wrong where no row could tell an impact. */
+/* False with the fault where no row could describe an impact. */
 static bool check_columns(const struct table *table, struct measured_remarks *remarks)
 {
     char list[256];

@@ -44,7 +44,7 @@ void measured_set_free(struct measured_set *set);
  * first_impulse, first_duration, second_start, at, v_out, and history, the name of a file of time
  * histories (relative to this one). Empty fields and nan are unknown. Rows without a speed (or a
  * history, which has it) or without any of restitution, v_out, impulse and history are left out,
- * with a note. False with all that is wrong: file, line, value and what is allowed. */
+ * with a note. False with all faults: file, line, value and allowed values. */
 bool measured_read(const char *file, const struct column_map *map, struct measured_set *set,
                    struct measured_remarks *remarks);
 
@@ -55,9 +55,9 @@ bool measured_append(struct measured_set *set, const struct measured_impact *imp
  * that of the one after it. */
 struct measured_impact measured_impact_from(const struct history_impacts *history, size_t *next);
 
-/* Fills what follows once the mass of A and the inverse effective mass w (1/kg) are known:
- * impulses from momenta, e = impulse w / speed - 1 (Eq. (6)) and the other way round, and the first
- * impulse where it is the only one. */
+/* Fills the numbers that follow once the mass of A and the inverse effective mass w (1/kg) are
+ * known: impulses from momenta, e = impulse w / speed - 1 (Eq. (6)) and the other way round, and
+ * the first impulse where it is the only one. */
 void measured_complete(struct measured_impact *impact, double mass_a, double w);
 
 #endif

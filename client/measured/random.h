@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Repeatable random numbers for permutations and synthetic noise: splitmix64 (Steele, Lea, Flood
- * 2014), whose state is a counter. */
+ * 2014); its state is a counter. */
 #ifndef PERCUSS_MEASURED_RANDOM_H
 #define PERCUSS_MEASURED_RANDOM_H
 

@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* What a file holds goes to a terminal. */
+/* Text of a file goes to a terminal. */
 static void write_line(struct measured_fault *fault, const char *format, va_list arguments)
 {
     vsnprintf(fault->text, sizeof fault->text, format, arguments);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What is to be said of files of measurements: all that is wrong, and how they were understood. */
+/* Remarks on files of measurements: all faults, and how the files were understood. */
 #ifndef PERCUSS_MEASURED_REMARKS_H
 #define PERCUSS_MEASURED_REMARKS_H
 

@@ -131,7 +131,7 @@ size_t layout_list(const struct layout *layout, bool all, char *text, size_t siz
 
 /* The cells of a line of headings, and of units. */
 
-/* What the file calls a column of that kind. */
+/* The file's name for a column of that kind. */
 static const char *heading_wanted(const struct table_source *source, size_t kind)
 {
     const struct column_choice *choice = column_map_find(source->map, &source->kinds[kind]);
@@ -153,8 +153,8 @@ static bool is_wanted(const struct table_source *source, size_t kind, const char
     return heading_number(source, kind) < 0 && cell_same_name(name, heading_wanted(source, kind));
 }
 
-/* The kind that a heading names, or -1. *whole: by all of its text, not by what stands before a
- * unit. */
+/* The kind that a heading names, or -1. *whole: by all of its text, not by the part before a unit.
+ */
 static int heading_kind(const struct table_source *source, const char *heading, bool *whole)
 {
     char name[HEADING_SIZE], unit[UNIT_SIZE];
@@ -220,7 +220,7 @@ static bool take_title(struct layout *layout, size_t column, struct measured_rem
                              column + 1, heading_wanted(source, (size_t)kind),
                              source->kinds[kind].name);
     layout->place[kind] = (int)column;
-    /* what stands in brackets need not be a unit where the name is given with it */
+    /* text in brackets need not be a unit where the name is given with it */
     column_heading(layout->titles.list[column], name, unit);
     if (source->kinds[kind].is_text ||
         (whole && column_accepts(&source->kinds[kind], unit) == UNITS_UNKNOWN))
@@ -238,7 +238,7 @@ static bool take_number(struct layout *layout, size_t kind, struct measured_rema
         layout->place[kind] = number;
         if (layout->line == 0)
             return true;
-        /* what stands above the rows may be nothing but the unit */
+        /* the text above the rows may be the unit alone */
         column_unit(layout->titles.list[number], unit);
         if (column_accepts(&source->kinds[kind], unit) != UNITS_GOOD)
             column_heading(layout->titles.list[number], name, unit);
@@ -259,7 +259,7 @@ static bool heading_take(struct layout *layout, struct measured_remarks *remarks
     bool good = true;
     for (size_t k = 0; k < COLUMN_KINDS; k++)
         layout->place[k] = -1;
-    /* what was said of them */
+    /* the user's units */
     for (size_t k = 0; k < source->kind_count; k++) {
         const struct column_choice *choice = column_map_find(source->map, &source->kinds[k]);
         if (choice)
@@ -296,7 +296,7 @@ static bool heading_units_stand(const struct layout *layout, const struct cells 
     return something;
 }
 
-/* Takes them. False: one is none, or is not what the heading says. */
+/* Takes them. False: one is no unit, or contradicts the heading. */
 static bool heading_take_units(struct layout *layout, const struct cells *cells, size_t line,
                                struct measured_remarks *remarks)
 {
@@ -414,8 +414,8 @@ static bool has_numbers(const struct table_source *source, const struct cells *c
     return any;
 }
 
-/* What stands above the first row may be units and headings: taken for the line of headings where
- * it has as many cells. */
+/* The line above the first row may have units and headings: it is the line of headings if it has as
+ * many cells. */
 static bool take_above(struct layout *layout, const struct text_lines *lines, size_t row)
 {
     size_t columns = layout->titles.all, top = row;
@@ -455,7 +455,7 @@ static bool find_rows(struct layout *layout, const struct text_lines *lines)
     return false;
 }
 
-/* The columns that the file may have, by what it is said to call them. */
+/* The columns that the file may have, with the names that the user gave. */
 static void list_known(const struct table_source *source, char *text, size_t size)
 {
     size_t length = 0;
@@ -468,7 +468,7 @@ static void list_known(const struct table_source *source, char *text, size_t siz
     }
 }
 
-/* What the first line would be as headings: for the message. */
+/* Explains the first line as headings, for the message. */
 static bool explain(struct layout *layout, const struct text_lines *lines,
                     struct measured_remarks *remarks)
 {
@@ -522,8 +522,8 @@ static bool take_units(struct layout *layout, const struct text_lines *lines,
 }
 
 /* The headings stand in the line that names most columns; a comment, a line that blanks divide and
- * a single word count only where what is below them fits. Without such a line columns are
- * chosen by their numbers. A line of units may follow. False with all that is wrong. Release with
+ * a single word count only where the rows below fit them. Without such a line columns are chosen by
+ * their numbers. A line of units may follow. False with all that is wrong. Release with
  * layout_free. */
 static bool survey_layout(const struct table_source *source, const struct text_lines *lines,
                           struct layout *layout, struct measured_remarks *remarks)

@@ -27,7 +27,7 @@ struct cells {
     char **list;        /* [all] */
 };
 
-/* Which columns a file may have, and what the user says of them. */
+/* Which columns a file may have, and the user's description of them. */
 struct table_source {
     const char *file; /* "-": standard input */
     const struct column_kind *kinds;
@@ -60,9 +60,9 @@ struct table {
     } unusual[COLUMN_KINDS];
 };
 
-/* Reads a file; empty lines and lines that begin with # are skipped. What is wrong with single
- * lines is said, and these are no rows. Notes columns that are not read, and lines before the
- * headings. False: it cannot be read. Release with table_free. */
+/* Reads a file; empty lines and lines that begin with # are skipped. Faulty lines are named and
+ * skipped. Notes columns that are not read, and lines before the headings. False: it cannot be
+ * read. Release with table_free. */
 bool table_read(const struct table_source *source, struct table *table,
                 struct measured_remarks *remarks);
 
@@ -73,8 +73,8 @@ bool table_has(const struct table *table, size_t kind);
 
 const char *table_cell(const struct table *table, size_t row, size_t kind);
 
-/* The cell in SI units, NAN where nothing is in it or the file has no such column. False, with what
- * is wrong, for what is no number or one that cannot be. */
+/* The cell in SI units, NAN where nothing is in it or the file has no such column. False, with the
+ * fault, for a text that is no number or an impossible one. */
 bool table_number(struct table *table, size_t row, size_t kind, double *number,
                   struct measured_remarks *remarks);
 

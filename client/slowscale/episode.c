@@ -98,7 +98,7 @@ void episodes_free(struct percuss_slow *slow)
 static struct episode *episode_create(const struct group *group)
 {
     size_t n = group->count;
-    /* an entry for each sub-impact, and one for what a contact's list leaves out */
+    /* an entry for each sub-impact, and one for the omitted part of a contact's list */
     size_t most = n;
     for (size_t i = 0; group->reply && i < n; i++)
         most += group->reply->contacts[i].sub_impacts_listed;
@@ -150,7 +150,7 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
         return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an answer");
     const struct percuss_reply *reply = group->reply;
     bool total = slow->config.application == PERCUSS_SLOW_TOTAL;
-    /* what is applied in one go has happened, and cannot be revoked */
+    /* impulses applied in one go have happened, and cannot be revoked */
     episode->time = group->start;
     episode->window = reply ? reply->window : 0.0;
     episode->revocable = reply && !total;
@@ -263,7 +263,7 @@ double episode_pause(const struct episode *episode, double time)
     return pause > 0.0 ? episode->time + pause : episode->time;
 }
 
-/* The vibration of the episode's bodies at `time` from its start: what it started with, or by a
+/* The vibration of the episode's bodies at `time` from its start: that of the start, or by a
  * question up to then. */
 static enum percuss_result take_vibration(struct percuss_slow *slow, struct episode *episode,
                                           struct group *group, double time)
@@ -313,7 +313,7 @@ enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *ep
     episode->revoked = true;
     for (size_t i = 0; !result && i < episode->entry_count; i++) {
         struct entry *entry = &episode->entries[i];
-        /* has happened, and was applied before its end; back at the start, nothing has: what lies
+        /* has happened, and was applied before its end; back at the start, nothing has: an entry
          * before it on a ringing body belongs to the same question */
         if (entry->end <= time && time >= SHORTEST_HORIZON)
             continue;

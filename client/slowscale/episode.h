@@ -7,7 +7,7 @@
 
 #include "group.h"
 
-/* Latches the group's pairs and enters what is to be applied from its start on: by the group's
+/* Latches the group's pairs and enters the impulses to be applied from its start on: by the group's
  * reply to `request`, or without one the group's impulses at once. */
 enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
                                   const struct percuss_request *request);
@@ -15,22 +15,23 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
 /* Applies all entries up to now and forgets episodes that are over; *applied counts them. */
 enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied);
 
-/* The revocable episode that the contact is part of and whose window is not over, or NULL. */
+/* The revocable episode that the contact is part of and that is within its window, or NULL. */
 struct episode *episode_of(const struct percuss_slow *slow,
                            const struct percuss_slow_contact *contact, double now);
 
 /* The last time up to `time` at which none of its sub-impacts is under way. */
 double episode_pause(const struct episode *episode, double time);
 
-/* Revokes what happens after the group's start, taking it back where it was applied, and asks for
- * the vibration at that time. What is lost is noted in the group. */
+/* Revokes impulses after the group's start, takes back the applied ones, and asks for the vibration
+ * at that time. Losses are noted in the group. */
 enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *episode,
                                    struct group *group, double now);
 
-/* What happens instead of the revoked episodes is known: forgets them. */
+/* Forgets the revoked episodes, once their successors are known. */
 void episodes_drop_revoked(struct percuss_slow *slow);
 
-/* It cannot be known: applies again what was taken back, and goes on with them. */
+/* Goes on with the revoked episodes, which have no successors: applies again the impulses taken
+ * back. */
 enum percuss_result episodes_restore_revoked(struct percuss_slow *slow, double now);
 
 void episodes_free(struct percuss_slow *slow);

@@ -70,7 +70,7 @@ bool percuss_slow_poisson(size_t n, const double *W, const double *gap_rate,
     /* compression stops all approach */
     bool good = percuss_slow_compression(n, W, gap_rate, compression);
     percuss_slow_gap_rate_after(n, W, gap_rate, compression, middle);
-    for (size_t i = 0; i < n; i++) { /* complementary: what pressed has stopped */
+    for (size_t i = 0; i < n; i++) { /* complementary: a pressing contact has stopped */
         middle[i] = compression[i] > 0.0 ? 0.0 : fmax(0.0, middle[i]);
         expansion[i] = restitution[i] * compression[i];
     }

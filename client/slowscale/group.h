@@ -7,7 +7,7 @@
 
 #include "slow.h"
 
-/* Contacts with what the engine says about them; one allocation. */
+/* Contacts with the engine's data about them; one allocation. */
 struct group {
     size_t count;
     double start; /* s: the instant that is asked about; before now if lists were revoked */

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One impact: what belongs together, the question, the answer or the declared restitution. */
+/* One impact: the group of contacts, the question, the answer or the declared restitution. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,8 @@
 /* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
 static const double NO_COUPLING = 1e-12;
 
-/* What an acceleration may bring during an impact, relative to the approach, to be left out. */
+/* Change of speed by an acceleration during an impact, relative to the approach, below which it is
+ * omitted. */
 static const double NEGLIGIBLE = 1e-3;
 
 /* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
@@ -45,7 +46,7 @@ static bool may_join(const struct percuss_slow *slow, const struct group *seen, 
            !(pair && pair->latch == LATCH_PLAYING);
 }
 
-/* Marks `first` and whatever is coupled to it through touching pairs; returns how many. */
+/* Marks `first` and all contacts coupled to it through touching pairs; returns their number. */
 static size_t mark_members(const struct percuss_slow *slow, const struct group *seen, size_t first,
                            double now, bool *member)
 {
@@ -66,8 +67,8 @@ static size_t mark_members(const struct percuss_slow *slow, const struct group *
     return count;
 }
 
-/* Revokes what members are playing, back to an instant at which no sub-impact was under way: that
- * is what is asked about then. Rates are not what they were before.
+/* Revokes the members' episodes, back to an instant without a sub-impact under way: the new
+ * question begins there. Rates change.
  *
  *     list 1   ...[====]....[====]........   [ ] a sub-impact
  *     list 2   .......[===].....[=====]...   1 now, in one of list 2
@@ -191,16 +192,16 @@ static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
     return PERCUSS_RESULT_OK;
 }
 
-/* Begins what the group's answer, or its impulses, say. */
+/* Begins the episode of the group's answer, or of its impulses. */
 static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
                                  const struct percuss_request *request, double now)
 {
     size_t applied = 0;
-    /* takes the place of what was revoked for it */
+    /* takes the place of the revoked episodes */
     slow->counts.impacts++;
     slow->counts.declared += !group->reply;
     episodes_drop_revoked(slow);
-    /* the bodies ring as the answer says, or nobody knows how */
+    /* the bodies' vibration is that of the answer, or unknown */
     if (group->reply) {
         keep_catalogue(slow, group->reply);
         tokens_keep(slow, group->contacts, request, group->reply,
@@ -219,7 +220,7 @@ static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
     return result;
 }
 
-/* What happens in a group that has been probed. */
+/* Finds the impulses of a group that has been probed. */
 static enum percuss_result find_impulses(struct percuss_slow *slow, struct group *group,
                                          struct percuss_request *request)
 {
@@ -256,7 +257,7 @@ static double acceleration(const struct percuss_slow *slow,
 }
 
 /* Without config.move, impulses that are not applied at their times leave the bodies in wrong
- * places. What presses or swings the bodies makes energy of that: TOTAL is then refused. */
+ * places. Pressing or swinging accelerations make energy of that: TOTAL is then refused. */
 static enum percuss_result check_places(const struct percuss_slow *slow, struct group *group,
                                         double now)
 {
@@ -264,7 +265,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
     for (size_t i = 0; group->reply && !slow->config.move && i < group->count; i++) {
         const struct percuss_contact_result *contact = &group->reply->contacts[i];
         double a = acceleration(slow, &group->contacts[i]);
-        /* all at the start: what the gap's acceleration does meanwhile must not matter */
+        /* all at the start: the effect of the gap's acceleration meanwhile must be negligible */
         if (slow->config.application == PERCUSS_SLOW_TOTAL &&
             fabs(a) * contact->end_time > NEGLIGIBLE * fabs(group->gap_rate[i]))
             return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -273,7 +274,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
                              "config.move, or use the list",
                              slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], a,
                              contact->end_time);
-        /* of a list, what is due before now comes late */
+        /* of a list, impulses due before now come late */
         for (uint32_t j = 0; j < contact->sub_impacts_listed; j++)
             latest = fmax(latest,
                           now - group->start - percuss_slow_force_centre(&contact->sub_impacts[j]));
@@ -293,7 +294,7 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
     if (!tokens)
         return slow_no_memory();
     memcpy(tokens, slow->tokens, size);
-    /* what is asked is the state of the start, which may lie before now */
+    /* the question is of the state of the start, which may lie before now */
     enum percuss_result result = preempt(slow, group, now);
     if (!result)
         result = group_probe(slow, group, true);
@@ -327,7 +328,7 @@ enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *
         result = group_probe(slow, all, true);
     }
     if (!result) {
-        /* of these what belongs together with the first one */
+        /* of these the group of the first one */
         group = gather(slow, all, first, now);
         result = group ? prepare(slow, group, request, now) : slow_no_memory();
     }

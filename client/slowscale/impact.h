@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One impact from the group to what is applied. */
+/* One impact from the group to the applied impulses. */
 #ifndef PERCUSS_SLOW_IMPACT_H
 #define PERCUSS_SLOW_IMPACT_H
 

@@ -6,9 +6,10 @@
 
 #include "pairs.h"
 
-static const double SLOWEST = 1e-3;  /* m/s: rounding and the engine's own contact stay below */
-static const double GRAVITY = 9.81;  /* m/s^2: what presses a pair of unknown acceleration */
-static const double ALLOWANCE = 1.5; /* of what one step can bring, for accelerations that change */
+static const double SLOWEST = 1e-3; /* m/s: rounding and the engine's own contact stay below */
+static const double GRAVITY = 9.81; /* m/s^2: presses a pair of unknown acceleration */
+static const double ALLOWANCE =
+    1.5; /* times the change by one step, for accelerations that change */
 
 bool pairs_is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y)
 {
@@ -45,7 +46,7 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
 {
     for (size_t i = 0; i < slow->pair_count; i++)
         slow->pairs[i].seen = false;
-    /* what the engine reports, known or new */
+    /* the pairs that the engine reports, known or new */
     for (size_t i = 0; i < count; i++) {
         struct pair *pair = pairs_find(slow, &contacts[i]);
         if (!pair)
@@ -55,7 +56,7 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
         pair->contact = contacts[i];
         pair->seen = true;
     }
-    /* what it does not report any more */
+    /* the pairs that it reports no longer */
     size_t kept = 0;
     for (size_t i = 0; i < slow->pair_count; i++) {
         if (!slow->pairs[i].seen && slow->pairs[i].latch != LATCH_PLAYING)
@@ -98,15 +99,15 @@ void pairs_update(struct percuss_slow *slow, double now)
     }
 }
 
-/* What presses a pair together, m/s^2. */
+/* The acceleration that presses a pair together, m/s^2. */
 static double pressing(const struct percuss_slow_contact *contact)
 {
     return contact->gap_acceleration != 0.0 ? fmax(0.0, -contact->gap_acceleration) : GRAVITY;
 }
 
-/* A pair that lay together without approach at the last call can approach only by what presses it
- * since then, for one step: that is a permanent contact. What comes from further away, or faster,
- * is an impact, however slow. */
+/* A pair that lay together without approach at the last call can approach only by the pressing
+ * acceleration since then, for one step: that is a permanent contact. An approach from further
+ * away, or a faster one, is an impact, however slow. */
 double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
                         double now)
 {

@@ -61,7 +61,7 @@ bool question_make(const struct percuss_slow *slow, const struct group *group, d
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
         to->gap = from->gap;
-        /* what lies together is carried by what presses it */
+        /* the pressing force balances bodies that lie together */
         bool rests = fabs(group->gap_rate[i]) <= pairs_rest_speed(slow, from, now);
         to->gap_acceleration = rests ? 0.0 : from->gap_acceleration;
         if (!enter_body(slow, group, from->a, now, request, map, &to->a) ||

@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Per thread, as in libpercuss: what could not be created has no place for a text. */
+/* Per thread, as in libpercuss: an object that was not created has no place for a text. */
 static _Thread_local char error_text[512];
 
 enum percuss_result slow_fail(enum percuss_result result, const char *format, ...)

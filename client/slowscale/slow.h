@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What one slow scale remembers between two calls. */
+/* The state of one slow scale between two calls. */
 #ifndef PERCUSS_SLOW_H
 #define PERCUSS_SLOW_H
 
@@ -21,7 +21,7 @@ struct pair {
     double when; /* s; NAN: not seen at the last call, and unknown since then */
     enum latch latch;
     double until;        /* s: end of PLAYING */
-    double over;         /* s: end of WAITING: what the answer says ends here */
+    double over;         /* s: end of WAITING: the answer's window ends here */
     bool seen;           /* in the present call */
     bool lies;           /* touched and did not approach as an impact at the end of the last call */
     double acceleration; /* m/s^2, of the gap in the last step without an impulse */
@@ -45,7 +45,7 @@ struct episode {
     double time;   /* s: of the impact */
     double window; /* s from then: the fast scale's, at whose end the tokens hold */
     bool revocable;
-    bool revoked;                   /* until it is known what happens instead */
+    bool revoked;                   /* until its successor is known */
     struct percuss_request request; /* delassus is its own */
     struct percuss_slow_contact *contacts;
     size_t entry_count, played;

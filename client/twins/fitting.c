@@ -13,7 +13,7 @@ static const double MOST_DAMPING = 0.9, LEAST_SHARE = 0.02;
 /* An interval wider than this share of the value leaves the parameter open. */
 static const double WIDE = 0.5;
 
-/* The body of that id, NULL for one that the catalogue lacks: who is asked refuses it. */
+/* The body of that id, NULL for one that the catalogue lacks, which the server refuses. */
 static const struct percuss_body *find_body(const struct twin_question *question, const char *id)
 {
     const struct percuss_body *const bodies[2] = {question->pair.a, question->pair.b};
@@ -34,7 +34,7 @@ enum fitting_lack fitting_start(struct fitting *fitting, size_t *which)
             return FITTING_LACKS_PARAMETER;
         if (isnan(parameter->start) && body)
             parameter->start = body->parameters[parameter->parameter];
-        /* what is multiplied cannot start from 0; damping has a size of its own */
+        /* a factor cannot start from 0; damping has a size of its own */
         bool damping = parameter->parameter == PERCUSS_PARAMETER_DAMPING;
         if (body && (!isfinite(parameter->start) || (!damping && parameter->start == 0.0)))
             return FITTING_LACKS_START;

@@ -12,11 +12,11 @@ struct calibrate_parameter {
     enum percuss_parameter parameter;
     char body[PERCUSS_ID_SIZE]; /* of A or B */
     double start;               /* NAN: the catalogue's */
-    double size;                /* what the fit measures changes by */
+    double size;                /* unit of its changes in the fit */
     double value, half_width;   /* of the 95 % interval */
 };
 
-/* A fit under way; what is above `result` is the caller's. */
+/* A fit under way; members above `result` are the caller's. */
 struct fitting {
     const struct twin_question *question;
     const struct measured_set *set; /* complete */
@@ -33,9 +33,9 @@ extern const double FITTING_TOLERANCE;
 
 enum fitting_lack { FITTING_LACKS_NOTHING, FITTING_LACKS_PARAMETER, FITTING_LACKS_START };
 
-/* Fills where each parameter starts: what is given, or what the catalogue says. Where one lacks
- * something, *which is its index: the body has no such parameter, or there is nothing to start from
- * (what is multiplied cannot start from 0). */
+/* Fills the start of each parameter: the given one, or the catalogue's. Where one lacks something,
+ * *which is its index: the body has no such parameter, or there is nothing to start from (a factor
+ * cannot start from 0). */
 enum fitting_lack fitting_start(struct fitting *fitting, size_t *which);
 
 /* Asks for the twins with these multiples of the parameters. */

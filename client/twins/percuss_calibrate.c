@@ -129,7 +129,7 @@ static enum percuss_result calibrate(struct report *report, struct percuss_calib
     enum percuss_result result = start(&fitting);
     if (result == PERCUSS_RESULT_OK && !fitting_solve(&fitting, &found))
         result = explain(&fitting, &found);
-    /* what is to be said of the twins is said of those that came out best */
+    /* warnings are of the twins with the best values */
     if (result == PERCUSS_RESULT_OK)
         result = report_result(fitting_ask(&fitting, found.fit.x, 1.0));
     if (result != PERCUSS_RESULT_OK)

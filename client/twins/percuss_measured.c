@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* <percuss/measured.h>: impacts, and what they are beside their twins. */
+/* <percuss/measured.h>: impacts, and their comparison with their twins. */
 #include <percuss/measured.h>
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Of libpercuss-measured: what went wrong, and the twins asked for by its functions. */
+/* Of libpercuss-measured: its error text, and the twins asked for by its functions. */
 #ifndef PERCUSS_TWINS_REPORT_H
 #define PERCUSS_TWINS_REPORT_H
 
@@ -37,14 +37,14 @@ struct report {
 /* The question's members but for those that the client checks. */
 enum percuss_result report_check(const struct percuss_measured_question *asked);
 
-/* Of a question that was checked: copies the impacts, asks for their twins and completes what was
- * measured. To be ended in any case; not to be moved. */
+/* Of a question that was checked: copies the impacts, asks for their twins and completes the
+ * measured impacts. To be ended in any case; not to be moved. */
 enum percuss_result report_begin(const struct percuss_measured *measured,
                                  const struct percuss_measured_question *asked,
                                  struct report *report);
 void report_end(struct report *report);
 
-/* What a twin_ask of the report's listener came to, with its text. */
+/* The result of a twin_ask of the report's listener, with its text. */
 enum percuss_result report_result(enum percuss_result result);
 
 /* The warnings of the twins asked for last, to be freed with report_free_warnings. NULL: out of

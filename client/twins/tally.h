@@ -11,7 +11,7 @@
 enum { TALLY_LINE = 1024 };
 
 struct tally {
-    const char *unit; /* what a reply is of, in the plural; set by the caller */
+    const char *unit; /* the subjects of replies, in the plural; set by the caller */
     size_t asked;     /* replies taken */
     size_t count, room;
     struct tally_entry *entries;

@@ -32,7 +32,7 @@ static enum percuss_result make_request(const struct twin_question *question,
     return result;
 }
 
-/* What a reply says in the terms of a measurement. */
+/* A reply in the terms of a measurement. */
 static struct twin twin_of(const struct percuss_reply *reply, double speed)
 {
     struct twin twin = {.status = reply->status, .impact = measured_impact_unknown()};
@@ -88,7 +88,7 @@ enum percuss_result twin_ask(const struct twin_question *question, const struct 
             result = make_request(question, &set->impacts[first + i], changes, &requests[i]);
         if (result == PERCUSS_RESULT_OK)
             result = solve(question, requests, count, replies);
-        /* in order; what has come is freed after a failure, too */
+        /* in order; received replies are freed after a failure, too */
         for (size_t i = 0; i < count; i++) {
             if (result == PERCUSS_RESULT_OK &&
                 !listener->take(listener->context, &requests[i], &replies[i], first + i))

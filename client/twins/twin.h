@@ -9,7 +9,7 @@
 
 #include "impact.h"
 
-/* What the server says of an impact, in the terms of struct measured_impact. */
+/* The server's answer to an impact, in the terms of struct measured_impact. */
 struct twin {
     enum percuss_status status;
     struct measured_impact impact;
@@ -17,7 +17,7 @@ struct twin {
     bool a_is_rigid;
 };
 
-/* Whom to ask for which scene. */
+/* The client to ask, and the scene. */
 struct twin_question {
     struct percuss_client *client;
     struct percuss_pair pair; /* its speed is that of each impact; its place, where one has none */
@@ -31,7 +31,7 @@ struct twin_override {
     struct percuss_override override;
 };
 
-/* In what the twins are not as measured. */
+/* The differences of the twins from the measured scene. */
 struct twin_changes {
     const struct twin_override *overrides;
     size_t count;
@@ -51,9 +51,9 @@ enum percuss_result twin_ask(const struct twin_question *question, const struct 
                              const struct twin_changes *changes,
                              const struct twin_listener *listener, struct twin *list);
 
-/* Completes what was measured with the masses that the server knows. Returns how many impacts it
- * went through: fewer than all where that one's history is of a body that vibrates, which does not
- * tell the impulse. */
+/* Completes the measured impacts with the masses that the server knows. Returns the number of
+ * impacts completed: fewer than all where that one's history is of a body that vibrates, which does
+ * not tell the impulse. */
 size_t twin_complete(const struct twin_question *question, struct measured_set *set,
                      const struct twin *list);
 
