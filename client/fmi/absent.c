@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Functions of the standard for what modelDescription.xml says that these FMUs have not: clocks,
- * structural parameters, partial derivatives, interpolation, Scheduled Execution. */
+/* Functions of the standard for features that these FMUs lack by their modelDescription.xml:
+ * clocks, structural parameters, partial derivatives, interpolation, Scheduled Execution. */
 #include "fmi3.h"
 #include "fmu.h"
 

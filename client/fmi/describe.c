@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Prints the modelDescription.xml of the FMU whose table it is linked with. */
+/* Prints the modelDescription.xml of the FMU by the table that it is linked with. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,7 +161,7 @@ int main(void)
     print_attribute("variableNamingConvention", "structured");
     puts(">");
 
-    /* what it can do, and what it speaks of */
+    /* its interfaces, units and variables */
     print_interfaces();
     print_units();
     puts("  <LogCategories>\n"

@@ -149,7 +149,7 @@ static fmi3Status initialize(struct fmu *fmu)
     if (!check_parameters(fmu))
         return fmi3Error;
 
-    /* the first touch, so that what cannot be answered is said before anything moves */
+    /* the first touch, so that a question without an answer fails before anything moves */
     double speed = sqrt(body->velocity * body->velocity + 2.0 * body->gravity * body->height);
     struct percuss_request request;
     fmi3Status status = fmu_pair(fmu, fmax(speed, body->rest_speed), &request);
@@ -216,7 +216,7 @@ static fmi3Status step(struct fmu *fmu, double end, struct model_step *outcome)
         return status;
     }
 
-    /* what is left of the step is flight or rest */
+    /* the rest of the step is flight or rest */
     body->shared.time = outcome->time = end;
     if (!body->resting) {
         double t = end - body->flight_start;

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The functions of the Functional Mock-up Interface 3.0, all of which an FMU must have. What each
- * does is said by the standard (fmi-standard.org). */
+/* The functions of the Functional Mock-up Interface 3.0, all of which an FMU must have. The
+ * standard (fmi-standard.org) describes each. */
 #ifndef PERCUSS_FMI3_H
 #define PERCUSS_FMI3_H
 
@@ -11,7 +11,7 @@
 /* which variables are meant */
 #define FMI3_REFERENCES const fmi3ValueReference[], size_t
 
-/* what leaves the shared object */
+/* exported by the shared object */
 #pragma GCC visibility push(default)
 
 const char *fmi3GetVersion(void);

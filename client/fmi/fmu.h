@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One instance of the FMU: its numbers, its mode, and whom it tells. */
+/* One instance of the FMU: its numbers, its mode, and its log. */
 #ifndef PERCUSS_FMI_FMU_H
 #define PERCUSS_FMI_FMU_H
 

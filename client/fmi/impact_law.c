@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What an impact does, for a simulator that has the bodies: it says when they touch and how, and
- * gets the impulse, by which it changes their velocities. */
+/* The impact law for a simulator that has the bodies: it reports a touch, and gets the impulse, by
+ * which it changes their velocities. */
 #include <math.h>
 #include <string.h>
 
@@ -167,7 +167,7 @@ static fmi3Status answer(struct fmu *fmu)
     return fmi3OK;
 }
 
-/* What cannot be answered is said before anything moves. */
+/* A question without an answer fails before anything moves. */
 static fmi3Status initialize(struct fmu *fmu)
 {
     const struct impact_law *law = (const struct impact_law *)fmu->numbers;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What one FMU is: its variables and its behaviour. The functions of the standard (fmu.c and
+/* The model of one FMU: its variables and its behaviour. The functions of the standard (fmu.c and
  * those beside it) are the same for all. */
 #ifndef PERCUSS_FMI_MODEL_H
 #define PERCUSS_FMI_MODEL_H
@@ -18,8 +18,7 @@ struct model_step {
 };
 
 /* Numbers are a struct of the model's that begins with a struct shared (shared.h) and holds no
- * pointer: a copy of its bytes is a state of the FMU. Functions say what is wrong by
- * fmu_error. */
+ * pointer: a copy of its bytes is a state of the FMU. Functions report faults by fmu_error. */
 struct model {
     const char *identifier; /* of the file */
     const char *meaning;
@@ -28,11 +27,11 @@ struct model {
     size_t variable_count;
     size_t size; /* of the numbers */
 
-    /* checks the parameters and fills what is not the importer's */
+    /* checks the parameters and fills the numbers that are not the importer's */
     fmi3Status (*initialize)(struct fmu *fmu);
     /* computes derivatives, indicators and continuous outputs */
     void (*refresh)(void *numbers);
-    /* changes what is discrete, and tells whether continuous states changed with it */
+    /* changes discrete variables, and tells whether continuous states changed with them */
     fmi3Status (*update)(struct fmu *fmu, bool *states_changed);
     /* after a step of the importer's integrator */
     void (*completed)(void *numbers);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The variables that both FMUs have: who is asked for what bodies, and what the last impact was. */
+/* The variables that both FMUs have: source, bodies, and the last impact. */
 #ifndef PERCUSS_FMI_SHARED_H
 #define PERCUSS_FMI_SHARED_H
 
@@ -9,7 +9,7 @@
 
 #include "variable.h"
 
-/* Who answers: what source.h opens. */
+/* The choice of the source that source.h opens. */
 struct source_choice {
     char catalogue[VARIABLE_TEXT_SIZE];
     char library[VARIABLE_TEXT_SIZE];

@@ -12,8 +12,8 @@
 
 #include "percuss/similar.h"
 
-/* s; a percussd is found within a second or two, and answers within milliseconds: longer waits only
- * end what would hang */
+/* s; a percussd is found within a second or two, and answers within milliseconds: the limits only
+ * end a hang */
 static const double CONNECT_TIMEOUT = 10.0;
 static const double ANSWER_TIMEOUT = 60.0;
 
@@ -171,7 +171,7 @@ bool source_ask(const struct source *source, const struct percuss_request *reque
                 struct impact *impact, char warning[SOURCE_MESSAGE_SIZE],
                 char message[SOURCE_MESSAGE_SIZE])
 {
-    /* in this process nobody else can hang */
+    /* no other process can hang here */
     double timeout = source->choice.service ? ANSWER_TIMEOUT : INFINITY;
     struct percuss_reply reply;
     if (percuss_solve(source->client, request, timeout, &reply) != PERCUSS_RESULT_OK) {

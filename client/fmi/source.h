@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Who answers what an impact does: the solver in this process, or a percussd. */
+/* The source of answers: the solver in this process, or a percussd. */
 #ifndef PERCUSS_FMI_SOURCE_H
 #define PERCUSS_FMI_SOURCE_H
 
@@ -15,10 +15,10 @@ struct source {
     struct percuss_body_list bodies;
 };
 
-/* What is wrong, in words. */
+/* The fault, in words. */
 enum { SOURCE_MESSAGE_SIZE = 1280 };
 
-/* Opens what is chosen; `resources` is the folder inside the FMU. NULL with a message. */
+/* Opens the chosen source; `resources` is the folder inside the FMU. NULL with a message. */
 struct source *source_open(const struct source_choice *choice, const char *resources,
                            char message[SOURCE_MESSAGE_SIZE]);
 void source_close(struct source *source);
@@ -31,8 +31,8 @@ bool source_find(const struct source *source, const struct shared *shared,
 bool source_pair(const struct source *source, const struct shared *shared, double speed,
                  struct percuss_request *request, char message[SOURCE_MESSAGE_SIZE]);
 
-/* Answers a request of one contact. `warning` is empty, or has what is to be known of the answer,
- * a line each. False with a message. */
+/* Answers a request of one contact. `warning` is empty, or has the answer's warnings, a line each.
+ * False with a message. */
 bool source_ask(const struct source *source, const struct percuss_request *request,
                 struct impact *impact, char warning[SOURCE_MESSAGE_SIZE],
                 char message[SOURCE_MESSAGE_SIZE]);

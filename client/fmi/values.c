@@ -16,7 +16,7 @@ static const char *const TYPE_NAMES[] = {
     [VARIABLE_STRING] = "String",
 };
 
-/* The variable of that reference and type; NULL after it was said what is wrong. */
+/* The variable of that reference and type; NULL after a message. */
 static const struct variable *find(struct fmu *fmu, fmi3ValueReference reference,
                                    enum variable_type type)
 {
@@ -56,7 +56,7 @@ static bool check_count(struct fmu *fmu, size_t references, size_t values)
     return false;
 }
 
-/* Where the value is to be read; NULL after it was said what is wrong. */
+/* Where the value is to be read; NULL after a message. */
 static const void *readable(struct fmu *fmu, fmi3ValueReference reference, enum variable_type type)
 {
     const struct variable *variable = find(fmu, reference, type);

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What servers announce on topics that are kept for late readers, so that a new reader only has to
- * wait for the copies. */
+/* Announcements of servers on topics that are kept for late readers: a new reader only waits for
+ * the copies. */
 #ifndef PERCUSS_LIB_ANNOUNCEMENTS_H
 #define PERCUSS_LIB_ANNOUNCEMENTS_H
 
@@ -30,8 +30,8 @@ void announcements_release(struct announcements *all);
 /* The id of the connected server; false when there is none, or it has gone. */
 bool announcements_server(struct percuss_client *client, uint8_t server[16]);
 
-/* What the connected server announces of itself; or, to a client that only observes, the one up
- * longest of those that it may mean. */
+/* The announcement of the connected server; or, for a client that only observes, of the one up
+ * longest among the wanted ones. */
 enum percuss_result announcements_connected(struct percuss_client *client, double timeout,
                                             struct percuss_server *server);
 

@@ -30,7 +30,7 @@ enum percuss_result batch_add_part(struct batch *batch, const percuss_v1_BatchRe
  * `count`, each missing one gets the status and message of the whole. */
 void batch_collect(struct batch *batch, struct percuss_reply *replies, size_t count);
 
-/* Frees what was not collected and empties the batch. */
+/* Frees the replies not collected and empties the batch. */
 void batch_clear(struct batch *batch);
 
 #endif

@@ -26,7 +26,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     enum percuss_result result = announcements_read(client, reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* of all that is announced what is this server's */
+    /* of all announcements those of this server */
     list->count = 0;
     list->bodies = calloc((size_t)all.count + 1, sizeof *list->bodies);
     for (int i = 0; list->bodies && i < all.count; i++) {

@@ -21,10 +21,10 @@
 
 /* The DDS participants of this process: one a domain and identity, for all its clients. Any thread.
  *
- * Cyclone DDS 0.10 lets only the first of several participants learn what a newly found process had
- * before (q_receive.c: readers of discovery after the first are in sync at once); when that one is
- * deleted before it has, the others never do. Clients with a participant each, one freed while a
- * server comes up, would not find that server until all of them were gone. */
+ * Cyclone DDS 0.10 lets only the first of several participants learn the earlier samples of a newly
+ * found process (q_receive.c: readers of discovery after the first are in sync at once); when that
+ * one is deleted before it has, the others never do. Clients with a participant each, one freed
+ * while a server comes up, would not find that server until all of them were gone. */
 
 struct shared_participant {
     uint32_t domain;
@@ -39,7 +39,7 @@ struct shared_participant {
 static LIST_HEAD(, shared_participant) participants = LIST_HEAD_INITIALIZER(participants);
 static pthread_mutex_t participants_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* Not one whose identity has ended: its folder may have been made anew since. */
+/* Not one with an identity that has ended: its folder may have been made anew since. */
 static struct shared_participant *find_participant(uint32_t domain, const char *security)
 {
     struct shared_participant *shared;
@@ -75,8 +75,8 @@ static void discard(struct shared_participant *shared)
     free(shared);
 }
 
-/* The participant of that domain and identity (a folder; NULL: none), made by the first who holds
- * it; or a negative DDS code. */
+/* The participant of that domain and identity (a folder; NULL: none), made by its first holder; or
+ * a negative DDS code. */
 static dds_entity_t participants_hold(uint32_t domain, const char *security)
 {
     const char *identity = security ? security : "";
@@ -98,7 +98,7 @@ static dds_entity_t participants_hold(uint32_t domain, const char *security)
     return entity;
 }
 
-/* Deletes it after the last one. What it was asked to make is to be deleted before. */
+/* Deletes it after the last one. Its entities are to be deleted before. */
 static void participants_release(dds_entity_t participant)
 {
     struct shared_participant *shared;
@@ -115,7 +115,7 @@ static void participants_release(dds_entity_t participant)
 
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
 
-/* What stands in PERCUSS_DOMAIN is no domain: kept until somebody can be told. */
+/* PERCUSS_DOMAIN holds no domain: kept until a function can report it. */
 static const uint32_t NOT_A_DOMAIN = UINT32_MAX;
 
 static uint32_t environment_domain(void)
@@ -239,7 +239,7 @@ static void replies_refused(dds_entity_t reader, dds_requested_incompatible_qos_
     note_refusal(&((struct percuss_client *)context)->refused_replies, status.last_policy_id);
 }
 
-/* What DDS refuses of our requests and of replies to us is noted from the beginning. */
+/* Notes from the beginning the matches that DDS refuses to our requests and to replies to us. */
 static void watch_refusals(struct percuss_client *client)
 {
     dds_offered_incompatible_qos_status_t offered = {0};
@@ -250,7 +250,7 @@ static void watch_refusals(struct percuss_client *client)
     dds_set_listener(client->request_writer, listener);
     dds_set_listener(client->reply_reader, listener);
     dds_delete_listener(listener);
-    /* and what came before the listener */
+    /* and those before the listener */
     dds_get_offered_incompatible_qos_status(client->request_writer, &offered);
     dds_get_requested_incompatible_qos_status(client->reply_reader, &requested);
     if (offered.total_count > 0)
@@ -304,7 +304,7 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
     if (reader < 0)
         return reader;
     /* a read condition would wake us while DDS still holds the reader's lock; the status does so
-     * afterwards, once for new samples: whoever is woken takes all */
+     * afterwards, once for new samples: the woken thread takes all */
     dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
     if (code == DDS_RETCODE_OK)
         code = dds_waitset_attach(client->waitset, reader, 0);
@@ -327,12 +327,12 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
         return PERCUSS_RESULT_OK;
     if (client->reply_reader < 0)
         return failure_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
-    /* whoever waits is woken when the server goes, too */
+    /* a waiting thread is woken when the server goes, too */
     dds_return_t code = dds_set_status_mask(
         client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
     if (code < 0)
         return failure_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
-    /* where requests go out, and whom they do not suit */
+    /* the writer of requests, and the notes of refused matches */
     client->request_writer =
         client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
@@ -409,7 +409,7 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
         memcpy(created->wanted, chosen.server, sizeof created->wanted);
     snprintf(created->partition, sizeof created->partition, "%s", among);
 
-    /* who it is, and its endpoints */
+    /* its id, and its endpoints */
     result = choose_id(chosen.id, created->id);
     if (result == PERCUSS_RESULT_OK)
         result = create_entities(created, identity);

@@ -38,16 +38,16 @@ struct percuss_client {
     bool secured;                        /* by DDS Security */
     char *identity;                      /* its folder; NULL: none */
     struct wire_validity validity;       /* of its files as they were */
-    bool observes;                       /* its permissions let it only see what servers announce */
-    char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
+    bool observes; /* its permissions let it only see announcements of servers */
+    char wanted[PERCUSS_SERVER_ID_SIZE]; /* beginning of the server's id; empty: any */
     bool least_loaded;                   /* of all: the one that has least to do */
     dds_entity_t participant; /* of all clients of the domain and identity, see client.c */
     dds_entity_t waitset;
     dds_entity_t request_writer;
     dds_entity_t reply_reader;
 
-    /* the last policy but partition for which DDS refused a match of what we write, of what we
-     * read; 0: none. Told by threads of DDS. */
+    /* the last policy but partition for which DDS refused a match of our writer, of our reader; 0:
+     * none. Told by threads of DDS. */
     atomic_uint refused_requests, refused_replies;
 
     pthread_mutex_t lock; /* guards everything below */
@@ -56,11 +56,12 @@ struct percuss_client {
     /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
     percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
-    bool lost;                   /* the server does not write to us any more */
-    double lost_since;           /* s; where lost */
-    double newcomer_until;       /* s; until then a new writer of replies may be its successor's */
-    uint64_t successions;        /* how often another process has taken the server's place */
-    struct client_server server; /* whom we stay with; its id is all zero before the first one */
+    bool lost;             /* the server does not write to us any more */
+    double lost_since;     /* s; where lost */
+    double newcomer_until; /* s; until then a new writer of replies may be its successor's */
+    uint64_t successions;  /* how often another process has taken the server's place */
+    struct client_server
+        server; /* the one that we stay with; its id is all zero before the first one */
     char server_name[SERVERS_NAME_SIZE];                 /* in words */
     struct client_server answering[CLIENT_MOST_SERVERS]; /* pings of percuss_client_connect */
     size_t answering_count;
@@ -79,8 +80,8 @@ struct percuss_client {
     int announcement_room; /* of the largest read so far, see announcements.c */
 };
 
-/* NO_SERVER, in words, where its identity has ended since it was made: it must not make anything
- * then, and nobody answers it. */
+/* NO_SERVER, in words, where its identity has ended since it was made: it must not create anything
+ * then, and gets no answers. */
 enum percuss_result client_check_identity(const struct percuss_client *client);
 
 /* A reader or writer, which goes with the client. `qos` is released. A negative return is a DDS

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Finding a server. A volatile request or reply that is written before both ends know each other is
- * lost, so a client asks only after a ping came back. Pings go to everybody; what is asked later
- * names the server that was chosen among those that answered, and the others ignore it. */
+ * lost, so a client asks only after a ping came back. Pings go to all servers; later requests name
+ * the server that was chosen among those that answered, and the others ignore them. */
 
 #include "connect.h"
 
@@ -33,7 +33,7 @@ struct names {
 };
 
 /* Each name once; there may be more than are worth naming. */
-static void add(struct names *names, const char *name)
+static void add_partition(struct names *names, const char *name)
 {
     for (size_t i = 0; i < names->count; i++)
         if (strcmp(names->name[i], name) == 0)
@@ -50,14 +50,14 @@ static void add_writer(struct names *names, const dds_builtintopic_endpoint_t *w
     if (strcmp(writer->topic_name, WIRE_TOPIC_SERVER_STATUS) != 0)
         return;
     dds_qget_partition(writer->qos, &count, &partitions);
-    add(names, count > 0 ? partitions[0] : "");
+    add_partition(names, count > 0 ? partitions[0] : "");
     for (uint32_t i = 0; i < count; i++)
         dds_free(partitions[i]);
     dds_free(partitions);
 }
 
-/* DDS tells of all writers of the domain, whatever their partition. */
-static void take(dds_entity_t publications, struct names *names)
+/* DDS reports all writers of the domain, of any partition. */
+static void take_writers(dds_entity_t publications, struct names *names)
 {
     void *samples[TAKEN_AT_ONCE] = {NULL};
     dds_sample_info_t infos[TAKEN_AT_ONCE];
@@ -81,7 +81,7 @@ static void partitions_list(const struct percuss_client *client, char *text, siz
         dds_create_reader(client->participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, NULL, NULL);
     if (publications < 0)
         return;
-    take(publications, &names);
+    take_writers(publications, &names);
     dds_delete(publications);
     /* those in our own would have been found */
     for (size_t i = 0; i < names.count && length < size; i++) {
@@ -106,7 +106,8 @@ static void partitions_list(const struct percuss_client *client, char *text, siz
 enum percuss_result servers_open(struct percuss_client *client);
 
 /* Those that have announced themselves by now, longest up first, draining ones last. For
- * percuss_server_list_free. `known` (may be NULL): how many there are by what those hear. */
+ * percuss_server_list_free. `known` (may be NULL): their number by the announcements of those
+ * servers. */
 enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list,
                                  size_t *known);
 
@@ -128,7 +129,7 @@ double servers_load(const struct percuss_server *server);
 /* How many read requests, announced or not. */
 size_t servers_reading(const struct percuss_client *client);
 
-/* A server with what decides its place in the list. */
+/* A server with the keys of its place in the list. */
 struct sighting {
     bool draining;
     double started; /* s, by the clock of its host */
@@ -174,8 +175,8 @@ void servers_describe(const uint8_t id[16], const struct percuss_server *server,
                  server->process, server->host);
 }
 
-/* Names the server that we stay with once it has announced itself: when it has gone, nobody knows
- * any more where it was. */
+/* Names the server that we stay with once it has announced itself: when it has gone, its host is no
+ * longer known. */
 static void note_name(struct percuss_client *client, const struct percuss_server_list *list)
 {
     pthread_mutex_lock(&client->lock);
@@ -272,7 +273,7 @@ enum percuss_result servers_list(struct percuss_client *client, double timeout,
         result = servers_look(client, list, NULL);
         bool found = connected ? servers_find(list, server) != NULL : list->count > 0;
         double now = moment_now();
-        /* complete when everyone who reads requests has said who he is, or has had time to */
+        /* complete when every reader of requests has announced itself, or has had time to */
         bool all = list->count >= servers_reading(client) || now >= fmin(settled, deadline);
         if (result != PERCUSS_RESULT_OK || (found && all))
             return result;
@@ -293,7 +294,7 @@ bool servers_is_wanted(const struct percuss_client *client, const uint8_t id[16]
     return strncmp(text, client->wanted, strlen(client->wanted)) == 0;
 }
 
-/* Who may only look has no connected server: the first of those that he could mean. */
+/* For a client that only observes, without a connected server: the first of the wanted ones. */
 static enum percuss_result find_observed(struct percuss_client *client, double timeout,
                                          struct percuss_server *server)
 {
@@ -429,12 +430,12 @@ struct search {
     struct client_server answering[CLIENT_MOST_SERVERS]; /* a copy */
     size_t count;
     struct percuss_server_list announced;
-    size_t known;     /* servers, by what those say */
+    size_t known;     /* servers, by their announcements */
     size_t most_seen; /* of announced */
     double news;      /* when so many were seen for the first time */
 };
 
-/* What there is when the time is over and no server has been chosen. */
+/* The error when the time is over and no server has been chosen. */
 static enum percuss_result explain(const struct search *search)
 {
     struct percuss_client *client = search->client;
@@ -451,11 +452,11 @@ static enum percuss_result explain(const struct search *search)
             length += (size_t)snprintf(others + length, sizeof others - length, "%s%s",
                                        i ? ", " : "; there is ", name);
     }
-    /* somebody may be there whose qualities of service rule us out */
+    /* a server with incompatible qualities of service may be there */
     enum percuss_result result = check_compatible(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* nobody, as far as can be seen */
+    /* no server in sight */
     if (client->wanted[0])
         return error_set(PERCUSS_RESULT_NO_SERVER,
                          "no percussd in DDS domain %u has an id that begins with %s%s",
@@ -532,8 +533,8 @@ static void settle_on(const struct search *search, const struct client_server *s
     pthread_mutex_unlock(&client->lock);
 }
 
-/* Whether somebody may be there who would be chosen: one who reads requests or has announced
- * himself but has not answered, or has answered and not said yet since when he is up. */
+/* Whether another server might be chosen: one that reads requests or has announced itself but has
+ * not answered, or has answered and not announced yet since when it is up. */
 static bool may_be_more(const struct search *search)
 {
     bool more =
@@ -554,7 +555,7 @@ static double settling(const struct search *search)
                : fmax(search->heard, search->news) + SERVERS_SETTLING;
 }
 
-/* Looks who has announced himself by now. */
+/* Looks for announced servers. */
 static enum percuss_result look_around(struct search *search)
 {
     enum percuss_result result = servers_look(search->client, &search->announced, &search->known);
@@ -565,13 +566,13 @@ static enum percuss_result look_around(struct search *search)
     return result;
 }
 
-/* PENDING: nobody can be chosen yet. */
+/* PENDING: no server can be chosen yet. */
 static enum percuss_result choose(struct search *search)
 {
     struct percuss_client *client = search->client;
     const struct client_server *server;
     const double now = moment_now();
-    /* no answer so far: patience before anybody is called incompatible */
+    /* no answer so far: patience before a server is called incompatible */
     if (search->count == 0)
         return now - search->start < GRACE ? PERCUSS_RESULT_PENDING
                : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
@@ -597,7 +598,7 @@ static bool is_answered(const struct percuss_client *client, const void *subject
     return client->answering_count > *before;
 }
 
-/* Pings all servers and collects who answers, until another one has or the next ping is due. */
+/* Pings all servers and collects their answers, until another one comes or the next ping is due. */
 static enum percuss_result ping_all(struct search *search)
 {
     struct percuss_client *client = search->client;
@@ -639,7 +640,7 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
         percuss_server_list_free(&search.announced);
         bool late = moment_now() >= search.deadline;
         result = client_check_identity(client);
-        /* a round is shorter than the time between two questions to whoever watches */
+        /* a round is shorter than the time between two calls of the watch */
         if (result == PERCUSS_RESULT_OK && !watching_asks(&watching, &ask))
             result = watching_cancelled();
         if (result == PERCUSS_RESULT_OK)

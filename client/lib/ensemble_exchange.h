@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An ensemble that is being answered: what has arrived of it. */
+/* An ensemble that is being answered: its parts so far. */
 #ifndef PERCUSS_LIB_ENSEMBLE_EXCHANGE_H
 #define PERCUSS_LIB_ENSEMBLE_EXCHANGE_H
 

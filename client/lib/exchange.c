@@ -22,8 +22,8 @@
 /* s from the loss of a server that ended in good order until another process has had time to take
  * its place, which takes a quarter of it where the machine has time */
 static const double SUCCESSION = 0.4;
-/* s after the loss of one that did not: it has been gone for a lease by then, and who took its
- * place is there and needs no more than to answer a ping */
+/* s after the loss of one that did not: it has been gone for a lease by then, and its successor is
+ * there and only has to answer a ping */
 static const double ANSWER = 0.2;
 
 /* Whether the last word of the server was that it ends. */
@@ -34,7 +34,7 @@ static bool was_draining(const struct percuss_client *client)
     dds_sample_info_t info;
     memcpy(status.server, client->server.id, sizeof status.server);
     dds_instance_handle_t server = dds_lookup_instance(client->server_reader, &status);
-    /* what it announced stays readable when it has gone */
+    /* its announcements stay readable when it has gone */
     bool draining = server != DDS_HANDLE_NIL &&
                     dds_read_instance(client->server_reader, samples, &info, 1, 1, server) == 1 &&
                     info.valid_data && strcmp(status.state, "ready") != 0;
@@ -56,7 +56,7 @@ static bool succession_follow(struct percuss_client *client, double deadline)
     const double patience = was_draining(client) ? SUCCESSION : ANSWER;
     const double end = fmin(deadline, client->lost_since + patience);
     enum percuss_result result = PERCUSS_RESULT_OK;
-    /* whoever takes the place answers what names the server */
+    /* the successor answers requests that name the server */
     while (client->lost && result == PERCUSS_RESULT_OK && moment_now() < end) {
         result = ping_write(client, client->server.id);
         if (result == PERCUSS_RESULT_OK)
@@ -131,16 +131,16 @@ static enum percuss_result enter(struct percuss_client *client, uint64_t sequenc
     return result;
 }
 
-/* Writes a request that is entered; what cannot be sent is not waited for. */
+/* Writes a request that is entered; one that cannot be sent is not waited for. */
 static enum percuss_result write_request(struct percuss_client *client, percuss_v1_Request *wire,
                                          struct pending *pending)
 {
-    /* who asks whom */
+    /* ids of client and server */
     memcpy(wire->client, client->id, sizeof wire->client);
     memcpy(wire->server, client->server.id, sizeof wire->server);
     wire->sequence = pending->sequence;
     pending->orphaned = false;
-    /* with histories if somebody gathers them */
+    /* with histories if they are gathered */
     wire->options.trace = wire->options.trace || pending->gather;
     dds_return_t code = dds_write(client->request_writer, wire);
     if (code >= 0)
@@ -167,7 +167,7 @@ static enum percuss_result send_request(struct percuss_client *client,
     return write_request(client, &wire, *pending);
 }
 
-/* Tells the server that nobody waits for a request any more. */
+/* Tells the server that no call waits for a request any more. */
 static void withdraw(struct percuss_client *client, const struct pending *pending)
 {
     percuss_v1_Request wire = {.sequence = pending->sequence, .cancel = true};
@@ -179,7 +179,7 @@ static void withdraw(struct percuss_client *client, const struct pending *pendin
 }
 
 /* Whether a request that came to that end is given up for good: a number of the program's own may
- * be asked again, and finds what is done by then. */
+ * be asked again, and finds the work done by then. */
 static bool is_given_up(const struct percuss_request *request, enum percuss_result result)
 {
     return result == PERCUSS_RESULT_CANCELLED ||
@@ -199,7 +199,7 @@ static enum percuss_result collect(struct percuss_client *client, struct pending
     return result;
 }
 
-/* What is waited for besides the reply. */
+/* The histories to wait for besides the reply. */
 struct histories {
     const struct gather *gather;
     size_t contacts;
@@ -228,8 +228,8 @@ static enum percuss_result await_all(struct percuss_client *client, const struct
     return result;
 }
 
-/* Asks the successor of a server that has gone, under the same number: what was answered and stored
- * before is not done again. False: nothing has changed. */
+/* Asks the successor of a server that has gone, under the same number: an impact that was answered
+ * and stored is not done again. False: nothing has changed. */
 static bool ask_successor(struct percuss_client *client, const struct percuss_request *request,
                           struct pending *pending, double deadline, enum percuss_result *result)
 {
@@ -250,7 +250,7 @@ enum percuss_result exchange_solve(struct percuss_client *client,
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
-    /* one that was lost while nobody waited may have a successor */
+    /* one that was lost while no call waited may have a successor */
     if (client->connected && client->lost)
         succession_follow(client, deadline);
     enum percuss_result result = send_request(client, request, true, gather, &pending);

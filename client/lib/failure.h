@@ -1,13 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What this library says of DDS and of servers. */
+/* Errors of DDS and of servers in words. */
 #ifndef PERCUSS_LIB_FAILURE_H
 #define PERCUSS_LIB_FAILURE_H
 
 #include <percuss/result.h>
 
-/* TRANSPORT with what failed and Cyclone's word for the negative return code. */
+/* TRANSPORT with the failed step and Cyclone's word for the negative return code. */
 enum percuss_result failure_dds(const char *what, int code);
 
 /* NO_SERVER: the server of that name has gone. */

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the public functions (api/operations.h) do with a client of this library. */
+/* The public functions (api/operations.h) for a client of this library. */
 #ifndef PERCUSS_LIB_LIBRARY_H
 #define PERCUSS_LIB_LIBRARY_H
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Whose the endpoints are that DDS has matched with ours. */
+/* The participants of the endpoints that DDS has matched with ours. */
 #ifndef PERCUSS_LIB_MATCHED_H
 #define PERCUSS_LIB_MATCHED_H
 
@@ -15,7 +15,8 @@ typedef dds_builtintopic_endpoint_t *matched_data(dds_entity_t, dds_instance_han
 bool matched_participant(matched_data *data, dds_entity_t endpoint, dds_instance_handle_t match,
                          dds_guid_t *participant);
 
-/* Whether the participant reads what our `writer` writes and writes what our `reader` reads. */
+/* Whether the participant has a reader matched with our `writer` and a writer matched with our
+ * `reader`. */
 bool matched_both(dds_entity_t writer, dds_entity_t reader, const dds_guid_t *participant);
 
 #endif

@@ -17,7 +17,7 @@ struct ensemble_exchange;
 struct pending {
     uint64_t sequence;
     bool waited;   /* a thread waits for this one; percuss_wait(0) leaves it alone */
-    bool orphaned; /* asked of a process that has gone, whose place another one has taken */
+    bool orphaned; /* asked of a process that has gone and has a successor */
     bool ready;
     enum percuss_result result; /* ready: OK with a reply or a filled batch, or NO_MEMORY */
     struct percuss_reply reply;
@@ -48,7 +48,7 @@ struct pending *pending_first_ready(const struct pending_table *table);
 /* Whether there is any that no thread waits for. */
 bool pending_has_unwaited(const struct pending_table *table);
 
-/* Marks what is not answered: whoever was asked has gone. */
+/* Marks unanswered requests: their server has gone. */
 void pending_orphan(struct pending_table *table);
 
 /* One that was marked so and that no thread waits for; NULL: none. */

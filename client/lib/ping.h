@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A request that asks nothing: who answers it, is there. */
+/* A request without a question: an answer shows that the server is there. */
 #ifndef PERCUSS_LIB_PING_H
 #define PERCUSS_LIB_PING_H
 

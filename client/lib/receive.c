@@ -58,7 +58,7 @@ static void file_ping(struct percuss_client *client, const struct client_server 
     client->answering_count += i == client->answering_count;
 }
 
-/* Files one reply of that writer. A reply that nobody waits for is a repeated or a cancelled one.
+/* Files one reply of that writer. A reply that is not waited for is a repeated or a cancelled one.
  */
 static void file_reply(struct percuss_client *client, struct percuss_reply *reply,
                        dds_instance_handle_t writer, enum percuss_result result)
@@ -158,8 +158,8 @@ static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds
 }
 
 /* Whether a writer is not of the server that we stay with: one that does not know `server` in
- * requests answers those to others too, and not all that it writes says whose it is. Of a writer
- * that has gone nobody can say: the server's last words count. */
+ * requests answers those to others too, and not all its samples name their client. The server of a
+ * writer that has gone is unknown: the server's last samples count. */
 static bool is_of_another(struct percuss_client *client, dds_entity_t reader,
                           dds_instance_handle_t writer)
 {
@@ -276,7 +276,7 @@ static bool has_gone(const struct percuss_client *client, dds_instance_handle_t 
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
-    /* what is there now: other threads add readers while the lock is released */
+    /* the readers of this moment: other threads add readers while the lock is released */
     dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
     dds_entity_t ensemble_reader = client->ensemble_reader;
     dds_instance_handle_t writer = client->server.writer;
@@ -288,7 +288,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
     if (triggered < 0)
         result = failure_dds("waiting for replies", triggered);
-    /* before what has arrived is taken: what a server wrote arrives before it is seen to go */
+    /* before arrived samples are taken: those of a server arrive before its loss is seen */
     bool newcomer = false;
     bool gone = triggered > 0 && has_gone(client, writer, &newcomer);
     if (triggered > 0)
@@ -331,7 +331,7 @@ static bool is_without_server(const struct percuss_client *client, uint64_t succ
     return client->connected && (client->lost || client->successions != successions);
 }
 
-/* Asks who has come, if it is the server's successor, and waits up to `seconds` for anything. */
+/* Pings a newcomer, which may be the server's successor, and waits up to `seconds` for anything. */
 static enum percuss_result ask_newcomer(struct percuss_client *client, double seconds)
 {
     enum percuss_result result = ping_write(client, client->server.id);

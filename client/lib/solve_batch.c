@@ -70,7 +70,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     enum percuss_result result = pending_add(&client->pending, sequence, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* who asks whom */
+    /* ids of client and server */
     percuss_v1_BatchRequest wire = {.sequence = sequence};
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
@@ -88,7 +88,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     return failure_dds("writing the batch", code);
 }
 
-/* Tells the server that nobody waits for a batch any more: its number was drawn for it. */
+/* Tells the server that no call waits for a batch any more: its number was drawn for it. */
 static void withdraw_batch(struct percuss_client *client, const struct pending *pending)
 {
     percuss_v1_BatchRequest wire = {.sequence = pending->sequence, .cancel = true};

@@ -37,7 +37,7 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
     if (!client->ensemble_writer)
         client->ensemble_writer = client_writer_create(client, &percuss_v1_EnsembleRequest_desc,
                                                        WIRE_TOPIC_ENSEMBLE_REQUEST);
-    /* what cannot be made now is tried again at the next ensemble */
+    /* a writer that cannot be made now is tried again at the next ensemble */
     if (client->ensemble_writer < 0) {
         dds_entity_t code = client->ensemble_writer;
         client->ensemble_writer = 0;
@@ -54,7 +54,7 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
     return PERCUSS_RESULT_OK;
 }
 
-/* Until requests and replies, and what comes between, are matched. */
+/* Until requests, progress and replies are matched. */
 static enum percuss_result connect_ensemble(struct percuss_client *client, double deadline)
 {
     pthread_mutex_lock(&client->lock);
@@ -86,7 +86,7 @@ static enum percuss_result send(struct percuss_client *client, percuss_v1_Ensemb
     enum percuss_result result = pending_add(&client->pending, sequence, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* who asks whom */
+    /* ids of client and server */
     memcpy(wire->client, client->id, sizeof wire->client);
     memcpy(wire->server, client->server.id, sizeof wire->server);
     wire->sequence = sequence;
@@ -106,7 +106,7 @@ static void send_cancel(struct percuss_client *client, uint64_t sequence)
     dds_write(client->ensemble_writer, &wire);
 }
 
-/* What the waiting thread looks for. */
+/* The events that the waiting thread looks for. */
 struct news {
     const struct pending *pending;
     unsigned heard;
@@ -124,8 +124,8 @@ struct watcher {
     void *context;
 };
 
-/* What the last of the progress says: its sample may come after the reply, as DDS has it of two
- * topics. */
+/* Tells the last progress by the reply: its sample may come after the reply, since DDS does not
+ * order two topics. */
 static void tell_last(struct percuss_client *client, const struct percuss_ensemble_reply *reply,
                       const struct watcher *watcher, uint64_t told)
 {
@@ -169,7 +169,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
         /* progress may come more often than receive_until asks */
         if (!receive_is_watched_on(client, &watching, &ask))
             return watching_cancelled();
-        /* only what is new is told, without the lock */
+        /* only new progress is told, without the lock */
         if (!watcher->function || pending->ensemble->told == told)
             continue;
         told = pending->ensemble->told;
@@ -177,7 +177,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
         pthread_mutex_unlock(&client->lock);
         bool go_on = watcher->function(watcher->context, &progress);
         pthread_mutex_lock(&client->lock);
-        /* cancelled: the reply still comes, of what is solved by then */
+        /* cancelled: the reply still comes, of the samples solved by then */
         if (!go_on && !cancelled)
             send_cancel(client, pending->sequence);
         cancelled = cancelled || !go_on;
@@ -214,7 +214,7 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
         pending->waited = true;
         pending->ensemble = exchange;
         result = await(client, pending, timeout, watcher);
-        /* nobody waits for what it would say */
+        /* no call waits for the reply */
         if (result == PERCUSS_RESULT_CANCELLED)
             send_cancel(client, pending->sequence);
         /* samples have a topic of their own, and the last ones may be later than the reply */
@@ -252,7 +252,7 @@ enum percuss_result solve_ensemble(struct percuss_client *client,
         wire.sequence = request->sequence;
         result = exchange_ensemble(client, &wire, timeout, &watcher, &exchange);
     }
-    /* to the caller, or to nobody */
+    /* to the caller, or freed */
     if (result == PERCUSS_RESULT_OK) {
         hand_over_samples(&exchange);
         *reply = exchange.reply;

@@ -120,7 +120,7 @@ enum percuss_result specimens_clear(struct percuss_client *client, const char *n
     enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = find(client, name, timeout, &found);
-    /* only what is kept can be cleared */
+    /* only stored specimens can be cleared */
     if (result == PERCUSS_RESULT_OK && !found)
         result = error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                            "specimen: %.63s: the server keeps none of that name", name);

@@ -1,19 +1,20 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Where one thread at a time answers questions: a workspace of the solver and what goes with it. */
+/* A place where one thread at a time answers questions: a workspace of the solver with its
+ * patience. */
 #ifndef PERCUSS_LOCAL_DESK_H
 #define PERCUSS_LOCAL_DESK_H
 
 #include "instance.h"
 
-/* Who waits for the answer, and how long. */
+/* The wait for the answer: its end, and its watch. */
 struct patience {
     double deadline;          /* moment_now() at which it is given up */
-    struct watching watching; /* whoever may give it up */
-    double ask;               /* when he is asked next */
+    struct watching watching; /* may give it up */
+    double ask;               /* when it is asked next */
     bool over;                /* it was given up, */
-    bool cancelled;           /* by him */
+    bool cancelled;           /* by the watch */
 };
 
 /* A question of `still_wanted`, with a patience as its context. */

@@ -20,7 +20,7 @@
 
 /* Parts of ensembles as octets, between processes. */
 
-/* What a part begins with; its items follow, as they lie in memory. */
+/* The head of a part; its items follow, as they lie in memory. */
 struct part_head {
     char kind[8]; /* tells it from anything else, and machines of another byte order apart */
     struct digest ensemble;
@@ -74,7 +74,7 @@ static enum percuss_status part_table_is_wanted(void *context, const struct tabl
     return PERCUSS_OK;
 }
 
-/* Chooses the model; what it is refused with. */
+/* Chooses the model; the error of a refusal. */
 static enum percuss_result prepare(struct percuss_ensemble_worker *worker)
 {
     struct percuss_client *client = worker->client;
@@ -230,12 +230,12 @@ static void sharing_ask(percuss_share_function *share, void *context, struct ens
     share(context, &sharing, &asked);
 }
 
-/* Who watches it. */
+/* Its progress function, watch and samples. */
 struct watcher {
-    percuss_progress_function *function; /* NULL: nobody */
+    percuss_progress_function *function; /* NULL: none */
     void *context;
-    struct watching watching; /* whoever may give it up */
-    double ask;               /* when he is asked next */
+    struct watching watching; /* may give it up */
+    double ask;               /* when it is asked next */
     bool cancelled, given_up;
     double *rows; /* of the listed samples; NULL: none */
     size_t columns;
@@ -290,7 +290,7 @@ static enum percuss_status table_is_wanted(void *context, const struct table_mak
     return watcher->cancelled ? fault_set(fault, PERCUSS_TIMEOUT, "cancelled") : PERCUSS_OK;
 }
 
-/* By whoever the caller knows. */
+/* By the caller's share function. */
 static void have_shared(void *context, struct ensemble_run *run, const struct ensemble_range *range)
 {
     struct watcher *watcher = context;

@@ -44,7 +44,7 @@ struct percuss_client {
     pthread_mutex_t lock; /* guards everything below */
     uint64_t next_sequence;
     struct watching watching;
-    struct desk *idle;                /* desks nobody works at */
+    struct desk *idle;                /* desks not in use */
     struct outstanding *first, *last; /* questions of percuss_submit, in their order */
     size_t outstanding_count;
 };

@@ -49,7 +49,7 @@ static enum percuss_result refuse(enum percuss_status status, const struct fault
                      "%s", fault->text);
 }
 
-/* From the file that is given or installed; what the program says goes before. */
+/* From the file that is given or installed; members of `config` go before. */
 static enum percuss_result read_settings(const struct percuss_local_config *config,
                                          struct settings *settings)
 {
@@ -62,7 +62,7 @@ static enum percuss_result read_settings(const struct percuss_local_config *conf
     free(shipped);
     if (status)
         return refuse(status, &fault);
-    /* who says nothing has time: answers then depend on no clock */
+    /* without given settings there is no limit of time: answers depend on no clock */
     if (!config->settings)
         settings->limit_seconds = settings->token_minutes = INFINITY;
     if (config->catalogue && snprintf(settings->catalogue, sizeof settings->catalogue, "%s",
@@ -100,7 +100,7 @@ static enum percuss_result load(struct percuss_client *client)
         .seconds = 60.0 * settings->token_minutes,
     };
     struct fault fault = {{0}};
-    /* the catalogue, and what it is asked with */
+    /* the catalogue, and the settings of its snapshots */
     enum percuss_status status = snapshots_open(&client->snapshots, settings->catalogue,
                                                 &client->tables, settings->bodies, &fault);
     if (status)
@@ -134,7 +134,7 @@ enum percuss_result percuss_local_open(const struct percuss_local_config *config
     memcpy(made->id, chosen.id, sizeof made->id);
     made->next_sequence = chosen.first_sequence;
     made->started = clock_now();
-    /* what it answers from */
+    /* settings and catalogue */
     enum percuss_result result = read_settings(&chosen, &made->settings);
     if (result == PERCUSS_RESULT_OK)
         result = load(made);

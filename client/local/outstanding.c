@@ -21,7 +21,7 @@
 
 /* One question, from the wire's struct to a reply. */
 
-/* Puts who asks and a number, drawn unless the request has one, on a converted request. */
+/* Puts the client's id and a number, drawn unless the request has one, on a converted request. */
 static void asking_address(struct percuss_client *client, uint64_t sequence,
                            percuss_v1_Request *wire)
 {
@@ -63,7 +63,7 @@ static enum percuss_result hand_over(const struct answer *answer, struct gather 
     return convert_reply(answer->reply, reply);
 }
 
-/* Answers a question whose client and sequence are set. TIMEOUT: the patience is over; NO_MEMORY.
+/* Answers a question with its client and sequence set. TIMEOUT: the patience is over; NO_MEMORY.
  * `gather` NULL: histories are not wanted. */
 static enum percuss_result asking_answer(struct percuss_client *client,
                                          const percuss_v1_Request *wire, bool in_batch,
@@ -76,7 +76,7 @@ static enum percuss_result asking_answer(struct percuss_client *client,
     struct answer *answer = solve_at(client, desk, wire, in_batch);
     const struct patience patience = desk->patience;
     desk_give(client, desk);
-    /* what was given up says nothing */
+    /* a question that was given up has no error */
     enum percuss_result result = PERCUSS_RESULT_OK;
     if (!answer)
         result = error_set(PERCUSS_RESULT_NO_MEMORY, "a reply");
@@ -185,7 +185,7 @@ struct outstanding {
     struct outstanding *next;
 };
 
-/* The question of that number, or with 0 the first that nobody solves; the lock is held. */
+/* The question of that number, or with 0 the first that no thread solves; the lock is held. */
 static struct outstanding *find(struct percuss_client *client, uint64_t sequence)
 {
     struct outstanding *one = client->first;

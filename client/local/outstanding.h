@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Questions of percuss_submit, solved by whoever waits for them. */
+/* Questions of percuss_submit, solved by the thread that waits for them. */
 #ifndef PERCUSS_LOCAL_OUTSTANDING_H
 #define PERCUSS_LOCAL_OUTSTANDING_H
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Who answers, and about what: this process, and its catalogue. */
+/* The server and its bodies: this process, and its catalogue. */
 
 #include <math.h>
 #include <stdlib.h>

@@ -42,7 +42,7 @@ static enum percuss_status load(struct percuss_client *client, const struct ques
     return PERCUSS_OK;
 }
 
-/* What the impact did; a request that ignores dents leaves none. */
+/* Stores the impact's dents; a request that ignores dents leaves none. */
 static enum percuss_status store(struct percuss_client *client, const struct desk *desk,
                                  const struct question *question, struct fault *fault)
 {
@@ -162,7 +162,7 @@ enum percuss_result local_clear_specimen(struct percuss_client *client, const ch
     percuss_specimen_list_free(&list);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* only what is kept can be cleared */
+    /* only stored specimens can be cleared */
     if (!found)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "specimen: %.63s: the server keeps none of that name", name);

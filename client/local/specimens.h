@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Specimens: their dents come from the store, and what an impact leaves is durable before its reply
+/* Specimens: their dents come from the store, and those of an impact are durable before its reply
  * is seen. Replies are not kept: an impact that is asked for again is another one. */
 #ifndef PERCUSS_LOCAL_SPECIMENS_H
 #define PERCUSS_LOCAL_SPECIMENS_H

@@ -17,7 +17,7 @@
 
 /* The processes of mpirun: the first one asks, the others solve. */
 
-/* What goes to a worker, and what comes from one. */
+/* Messages to a worker, and from one. */
 enum { TAG_RANGE, TAG_PART };
 
 /* Ranges that a worker has at once: the next one is there when one is solved. */
@@ -66,7 +66,7 @@ static bool team_waits(void)
 /* The first process at work on a range. */
 struct deal {
     struct percuss_ensemble_sharing *sharing;
-    struct percuss_ensemble_range left; /* nobody has it yet */
+    struct percuss_ensemble_range left; /* not dealt yet */
     uint64_t largest;                   /* part */
     uint64_t own;                       /* items that it solves in a turn */
     unsigned outstanding;               /* parts that others solve */
@@ -74,7 +74,7 @@ struct deal {
     enum percuss_result result;
 };
 
-/* What all ranges of an ensemble are solved with. */
+/* Shared by all ranges of an ensemble. */
 struct team {
     struct percuss_ensemble_worker *worker; /* of this process */
     percuss_progress_function *progress;
@@ -102,7 +102,7 @@ static void send_order(struct deal *deal, int to)
     deal->outstanding++;
 }
 
-/* Hands a part over; whatever is wrong with it ends the deal. */
+/* Hands a part over; any fault in it ends the deal. */
 static void take(struct team *team, struct deal *deal, const void *part, size_t size)
 {
     enum percuss_result result = percuss_ensemble_take(deal->sharing, part, size);
@@ -167,7 +167,7 @@ static void share(void *context, struct percuss_ensemble_sharing *sharing,
     struct deal deal = {.sharing = sharing, .left = *range, .own = 1};
     deal.largest = 1 + range->count / (uint64_t)(PARTS_EACH * ranks());
     deal.largest = deal.largest < LARGEST_PART ? deal.largest : LARGEST_PART;
-    /* everybody has some, and gets more as he is done */
+    /* each process has some, and gets more when it is done */
     for (int i = 0; i < AHEAD; i++)
         for (int to = 1; to < ranks(); to++)
             send_order(&deal, to);
@@ -195,7 +195,7 @@ static void create_worker(struct team *team, struct percuss_client *client,
     MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
 }
 
-/* Solves what the first process orders until there is no more. */
+/* Solves the first process's orders until the last. */
 static void follow(struct team *team)
 {
     for (;;) {
@@ -228,7 +228,7 @@ static enum percuss_result lead(struct team *team, struct percuss_client *client
 }
 
 /* As percuss_solve_ensemble, with the samples solved by all processes, which *begun says have been
- * told. Does not return in any but the first: they end when it has what it wants. */
+ * told. Does not return in any but the first: they end when it has the ensemble. */
 static enum percuss_result team_solve(struct percuss_client *client,
                                       const struct percuss_ensemble_request *request,
                                       double timeout, percuss_progress_function *progress,
@@ -236,10 +236,10 @@ static enum percuss_result team_solve(struct percuss_client *client,
                                       bool *begun)
 {
     struct team team = {.progress = progress, .context = context};
-    /* nobody waits for progress: it is in this very process */
+    /* progress is not waited for: it is in this very process */
     (void)timeout;
     if (rank() == 0) {
-        /* what is refused is refused here alone, in the answer */
+        /* a refusal happens here alone, in the answer */
         if (percuss_ensemble_worker_create(client, request, &team.worker) != PERCUSS_RESULT_OK)
             return percuss_solve_ensemble(client, request, timeout, progress, context, reply);
         team_begin(*begun = true);

@@ -145,6 +145,6 @@ void give_refusal(uint32_t status, const char *message, percuss_msgs_msg_dds__An
     answer->status = status;
     answer->message = (char *)message;
     answer->catalogue_revision = answer->version = answer->model.reason = nothing;
-    /* as the server leaves what it does not compute */
+    /* as the server leaves numbers that it does not compute */
     answer->window = NAN;
 }

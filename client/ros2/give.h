@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What libpercuss answers as messages of ROS 2. Texts are borrowed from what is given. */
+/* Answers of libpercuss as messages of ROS 2. Texts are borrowed from the arguments. */
 #ifndef PERCUSS_ROS2_GIVE_H
 #define PERCUSS_ROS2_GIVE_H
 

@@ -26,7 +26,7 @@
 
 /* The side of percussd. */
 
-/* A client that several threads ask by, and whoever answers it. */
+/* A client that several threads ask by, and its connection. */
 struct ask_line {
     struct percuss_client *client;
     uint32_t domain;
@@ -37,7 +37,7 @@ struct ask_line {
     atomic_uint failures;          /* to connect */
 };
 
-/* An answer and what it borrows; zeroed before the first. */
+/* An answer and the data that it borrows; zeroed before the first. */
 struct ask {
     struct percuss_request request; /* large */
     struct percuss_reply reply;
@@ -92,19 +92,19 @@ static uint32_t status_of(enum percuss_result result)
     }
 }
 
-static void refuse(struct ask *ask, uint32_t status, const char *message)
+static void ask_refuse(struct ask *ask, uint32_t status, const char *message)
 {
     snprintf(ask->message, sizeof ask->message, "%s", message);
     give_refusal(status, ask->message, &ask->answer);
 }
 
-/* Fills ask->answer, whatever happens: with a status where it cannot be had. */
+/* Fills ask->answer in any case: with a status where there is no answer. */
 static void ask_answer(struct ask_line *line, struct ask *ask,
                        const percuss_msgs_msg_dds__Question_ *question)
 {
     char problem[TAKE_PROBLEM_SIZE];
     if (!take_question(question, &ask->request, problem)) {
-        refuse(ask, PERCUSS_BAD_REQUEST, problem);
+        ask_refuse(ask, PERCUSS_BAD_REQUEST, problem);
         return;
     }
     ask->request.sequence = atomic_fetch_add(&line->sequence, 1) + 1;
@@ -113,20 +113,20 @@ static void ask_answer(struct ask_line *line, struct ask *ask,
     enum percuss_result result = PERCUSS_RESULT_NO_SERVER;
     if (seen > 0)
         result = percuss_solve(line->client, &ask->request, timeout, &ask->reply);
-    /* one that has gone may have been started again, and knows by the number what it has answered
-     */
+    /* one that has gone may have been started again, and knows by the number the requests that it
+     * has answered */
     if (result == PERCUSS_RESULT_NO_SERVER && ask_connect(line, seen))
         result = percuss_solve(line->client, &ask->request, timeout, &ask->reply);
     if (result == PERCUSS_RESULT_NO_SERVER) {
         snprintf(problem, sizeof problem, "no percussd answers in DDS domain %u", line->domain);
-        refuse(ask, status_of(result), problem);
+        ask_refuse(ask, status_of(result), problem);
     } else if (result != PERCUSS_RESULT_OK)
-        refuse(ask, status_of(result), percuss_error_text());
+        ask_refuse(ask, status_of(result), percuss_error_text());
     else if (!give_answer(&ask->pieces, &ask->reply, &ask->answer))
-        refuse(ask, PERCUSS_INTERNAL, "the bridge is out of memory");
+        ask_refuse(ask, PERCUSS_INTERNAL, "the bridge is out of memory");
 }
 
-/* Releases what the answer borrows. */
+/* Releases the data that the answer borrows. */
 static void ask_clear(struct ask *ask)
 {
     give_pieces_free(&ask->pieces);
@@ -147,7 +147,8 @@ struct bridge_config {
     unsigned threads;
 };
 
-/* Who asks on the topic and reads no replies: others do. The latest ones. */
+/* Writers of questions on the topic without a reader of replies of their own: others read them. The
+ * latest ones. */
 struct bridge_silent {
     pthread_mutex_t lock;
     dds_instance_handle_t writers[BRIDGE_MOST_SILENT];
@@ -179,7 +180,7 @@ static bool is_silent(struct bridge_silent *silent, dds_instance_handle_t writer
     return found;
 }
 
-/* Waits for the reader of who asks, but once for somebody who has none. */
+/* Waits for the asker's reader, but once for an asker without one. */
 static void await_reader(struct bridge *bridge, dds_instance_handle_t client)
 {
     struct bridge_silent *silent = &bridge->silent;
@@ -207,7 +208,7 @@ static void answer_topic(struct bridge *bridge, struct ask *ask, const void *sam
     ask_clear(ask);
 }
 
-/* One of the service: the reply begins with what the request began with. */
+/* One of the service: the reply begins with the request's beginning. */
 static void answer_service(struct bridge *bridge, struct ask *ask, const void *sample,
                            dds_instance_handle_t client)
 {
@@ -305,7 +306,7 @@ static bool create_ends(struct bridge *bridge)
            bridge->service_reader && bridge->body_writer;
 }
 
-/* False, with what is wrong on standard error; bridge_free in any case. */
+/* False, with the fault on standard error; bridge_free in any case. */
 static bool bridge_open(struct bridge *bridge, const struct bridge_config *config)
 {
     *bridge = (struct bridge){
@@ -357,7 +358,7 @@ static void bridge_tend(struct bridge *bridge)
     struct percuss_body_list list = {0};
     struct give_pieces pieces = {0};
     percuss_msgs_msg_dds__BodyList_ bodies = {0};
-    /* a server that is lost is looked for when somebody asks, the first one at once */
+    /* a lost server is looked for at the next question, the first one at once */
     if (percuss_bodies(bridge->line.client, BODIES_TIMEOUT, &list) != PERCUSS_RESULT_OK) {
         if (!ask_connect(&bridge->line, ask_connections(&bridge->line)) ||
             percuss_bodies(bridge->line.client, BODIES_TIMEOUT, &list) != PERCUSS_RESULT_OK)
@@ -376,7 +377,7 @@ static void bridge_tend(struct bridge *bridge)
     give_pieces_free(&pieces);
 }
 
-/* What is being asked is answered first. */
+/* Answers the current questions first. */
 static void bridge_free(struct bridge *bridge)
 {
     if (bridge->stop > 0)
@@ -506,7 +507,7 @@ int main(int argc, char **argv)
                                    .threads = 8};
     argp_err_exit_status = USAGE;
     const char *ros_domain = getenv("ROS_DOMAIN_ID");
-    /* a domain in the environment is checked as an option is; what follows overrides it */
+    /* a domain in the environment is checked as an option is; options override it */
     if (ros_domain && *ros_domain) {
         struct argp_state state = {
             .root_argp = &argp, .name = "percuss-ros2", .err_stream = stderr, .out_stream = stdout};

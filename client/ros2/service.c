@@ -48,7 +48,7 @@ static bool endpoint_id(const dds_builtintopic_endpoint_t *endpoint, char id[SER
     return has;
 }
 
-/* Whether a reader is that of whom a writer is. */
+/* Whether a reader and a writer are of the same peer. */
 typedef bool same_peer(const dds_builtintopic_endpoint_t *reader,
                        const dds_builtintopic_endpoint_t *writer);
 

@@ -103,7 +103,7 @@ bool take_question(const percuss_msgs_msg_dds__Question_ *question, struct percu
 {
     const uint32_t bodies = question->bodies._length, contacts = question->contacts._length;
     const uint32_t numbers = question->delassus._length;
-    /* what there is no room for */
+    /* lists that do not fit */
     if (!fits("bodies", bodies, PERCUSS_MAX_BODIES, problem) ||
         !fits("contacts", contacts, PERCUSS_MAX_CONTACTS, problem))
         return false;

@@ -11,8 +11,8 @@
 
 enum { TAKE_PROBLEM_SIZE = 256 };
 
-/* False with `problem` naming the field, its value and what is allowed: what a request has no room
- * for. The server checks the rest. `request` borrows the numbers of the question's delassus. */
+/* False with `problem` naming the field, its value and the allowed ones: the request has no room
+ * for it. The server checks the rest. `request` borrows the numbers of the question's delassus. */
 bool take_question(const percuss_msgs_msg_dds__Question_ *question, struct percuss_request *request,
                    char problem[TAKE_PROBLEM_SIZE]);
 
