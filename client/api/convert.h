@@ -18,8 +18,8 @@ struct request_storage {
 };
 
 /* Fills `wire` with pointers into `storage` and to the request's delassus; neither is to be freed
- * through `wire`. The client and sequence stay zero. INVALID_ARGUMENT, naming the field, for what
- * does not fit the wire: too many bodies or contacts, unterminated strings. Whether the numbers
+ * through `wire`. The client and sequence stay zero. INVALID_ARGUMENT, naming the field, for data
+ * that do not fit the wire: too many bodies or contacts, unterminated strings. Whether the numbers
  * make sense is the server's judgement. */
 enum percuss_result convert_request(const struct percuss_request *request,
                                     struct request_storage *storage, percuss_v1_Request *wire);
@@ -43,7 +43,7 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
 enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
                                            struct percuss_ensemble_reply *reply);
 
-/* Copies of what servers announce. False: no memory, for the tasks, which are the caller's. */
+/* Copies of servers' announcements. False: no memory, for the tasks, which are the caller's. */
 bool convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to);
 void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body);
 bool convert_announced_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen);

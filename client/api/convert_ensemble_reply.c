@@ -8,7 +8,7 @@
 #include "convert_members.h"
 #include "error.h"
 
-/* A copy without its undefined values; what is not there at all. */
+/* A copy without its undefined values; an element that is absent. */
 #define UNDEFINER(element, fields)                                                                 \
     static void undefine_##element(struct percuss_##element *to)                                   \
     {                                                                                              \
@@ -27,7 +27,7 @@ static size_t least(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* Lists that belong together are as long as the shortest, whatever a server sends. */
+/* Lists that belong together are as long as the shortest, for any server. */
 static void convert_statistic(const percuss_v1_Statistic *from, struct storage *storage,
                               struct percuss_statistic *to)
 {

@@ -14,7 +14,7 @@ static const struct client_operations *operations_of(const struct percuss_client
     return *(const struct client_operations *const *)(const void *)client;
 }
 
-/* What went wrong in another library is told by this one. */
+/* Takes over the error text of another library. */
 static enum percuss_result report(const struct percuss_client *client, enum percuss_result result)
 {
     const char *(*error_text)(void) = operations_of(client)->error_text;
@@ -23,7 +23,7 @@ static enum percuss_result report(const struct percuss_client *client, enum perc
     return result;
 }
 
-/* The end of a call without a pointer that it needs: what it would have filled is empty. */
+/* The end of a call without a pointer that it needs: its output is empty. */
 static enum percuss_result refuse(void *output, size_t size)
 {
     if (output)

@@ -9,7 +9,7 @@
 #include "missing.h"
 
 /* Keeps the text for percuss_error_text of this thread and returns `result`. That of NO_MEMORY
- * begins with "out of memory: ", so that it only has to say for what. */
+ * begins with "out of memory: ", so that `format` only names the object. */
 enum percuss_result error_set(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -20,7 +20,7 @@ enum percuss_result error_null(struct missing missing);
 /* Takes over the text of another library's copy of this module. */
 void error_copy(const char *text);
 
-/* What percuss_error_text returns; not to be replaced by another library's. */
+/* The text of percuss_error_text; not to be replaced by another library's. */
 const char *error_last(void);
 
 #endif

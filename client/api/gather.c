@@ -34,7 +34,7 @@ static void place_columns(struct percuss_contact_trace *contact, double *block, 
         *all[i] = block + i * room;
 }
 
-/* Room for `needed` instants: by what has come, not by what is announced. */
+/* Room for `needed` instants: by the received instants, not by the announced ones. */
 static bool make_room(struct gather *gather, uint32_t c, size_t needed)
 {
     struct percuss_contact_trace *contact = &gather->contacts[c];

@@ -28,7 +28,7 @@ bool gather_is_complete(const struct gather *gather, size_t contacts);
 enum percuss_result gather_collect(struct gather *gather, size_t contacts,
                                    struct percuss_trace *trace);
 
-/* Frees what was not handed over. */
+/* Frees the histories not handed over. */
 void gather_clear(struct gather *gather);
 
 #endif

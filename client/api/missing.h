@@ -14,7 +14,7 @@ struct missing {
     int length;
 };
 
-/* The first NULL among pointers whose names are listed as "client, pair->a". */
+/* The first NULL among pointers with their names listed as "client, pair->a". */
 static inline struct missing missing_find(const char *names, const void *const *pointers,
                                           size_t count)
 {

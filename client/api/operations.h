@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The public functions that take a client leave what they do to the library that made it: each
- * client begins with a pointer to a table of functions, so that a client of one library serves the
+/* The public functions that take a client leave their work to the library that made it: each client
+ * begins with a pointer to a table of functions, so that a client of one library serves the
  * functions of another. A table only grows, at its end: its maker may be of another version. */
 #ifndef PERCUSS_API_OPERATIONS_H
 #define PERCUSS_API_OPERATIONS_H
@@ -11,7 +11,7 @@
 
 /* As the functions percuss_... of these names say. */
 struct client_operations {
-    /* what went wrong in this thread, as percuss_error_text says it */
+    /* error text of this thread, as percuss_error_text returns it */
     const char *(*error_text)(void);
     void (*free)(struct percuss_client *client);
     void (*id)(const struct percuss_client *client, uint8_t id[16]);

@@ -37,7 +37,7 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
     if (moment_deadline(link->timeout, &deadline))
         return PERCUSS_RESULT_INVALID_ARGUMENT;
     for (;;) {
-        /* to whoever is there now */
+        /* to any server that is there now */
         result = link->connected ? PERCUSS_RESULT_OK
                                  : percuss_client_connect(link->client, link->reconnect);
         link->connected = result == PERCUSS_RESULT_OK;

@@ -1,20 +1,20 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What percuss_client_watch has set. */
+/* The watch that percuss_client_watch has set. */
 #ifndef PERCUSS_API_WATCHING_H
 #define PERCUSS_API_WATCHING_H
 
 #include <percuss/watch.h>
 #include <pthread.h>
 
-/* Between two questions to whoever watches, s. */
+/* Between two calls of the watch, s. */
 static const double WATCHING_INTERVAL = 0.1;
 
 struct watching {
-    percuss_watch_function *function; /* NULL: nobody watches */
+    percuss_watch_function *function; /* NULL: no watch */
     void *context;
-    pthread_t thread; /* whose calls are watched */
+    pthread_t thread; /* its calls are watched */
 };
 
 /* By the calling thread. */

@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What happens when the steel sphere hits the end of the aluminium rod? Asked of the solver in this
- * process: no percussd is needed. Arguments: a catalogue, and the bodies' names there. */
+/* The impact of the steel sphere on the end of the aluminium rod, by the solver in this process: no
+ * percussd is needed. Arguments: a catalogue, and the bodies' names there. */
 
 #include <percuss/local.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Every call returns PERCUSS_RESULT_OK or says what went wrong. */
+/* Every call returns PERCUSS_RESULT_OK or leaves an error text. */
 static void check(enum percuss_result result)
 {
     if (result == PERCUSS_RESULT_OK)

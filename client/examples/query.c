@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What happens when the steel sphere falls on the aluminium beam? Asks twice: for one speed, and
- * for many at once. Needs a percussd with the shipped catalogue; the domain may be the argument. */
+/* The impact of the steel sphere on the aluminium beam. Asks twice: for one speed, and for many at
+ * once. Needs a percussd with the shipped catalogue; the domain may be the argument. */
 
 #include <percuss/percuss.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Every call returns PERCUSS_RESULT_OK or says what went wrong. */
+/* Every call returns PERCUSS_RESULT_OK or leaves an error text. */
 static void check(enum percuss_result result)
 {
     if (result == PERCUSS_RESULT_OK)
@@ -44,7 +44,7 @@ static void describe(struct percuss_request *request, double speed)
 
 static void print(const struct percuss_reply *reply)
 {
-    /* a refusal is an answer too: its message says which field is wrong and what is allowed */
+    /* a refusal is an answer too: its message names the wrong field and the allowed values */
     if (reply->status != PERCUSS_OK)
         printf("%s: %s\n", percuss_status_name(reply->status), reply->message);
     for (size_t i = 0; i < reply->contact_count; i++) {
@@ -59,7 +59,7 @@ static void print(const struct percuss_reply *reply)
 int main(int argc, char **argv)
 {
     struct percuss_client_config config = percuss_client_config_default();
-    if (argc > 1) /* else what PERCUSS_DOMAIN says, or 0 */
+    if (argc > 1) /* else that of PERCUSS_DOMAIN, or 0 */
         config.domain = (uint32_t)atoi(argv[1]);
     struct percuss_client *client;
     struct percuss_request request;

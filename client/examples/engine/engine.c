@@ -8,7 +8,7 @@
 #include <percuss/slow_link.h> /* pkg-config percuss or percuss-local, or percuss::percuss */
 #include <percuss/slowscale.h> /* pkg-config percuss-slowscale, or percuss::slowscale */
 
-#include "my_engine.h" /* my_...: what an engine has */
+#include "my_engine.h" /* my_...: parts that an engine has */
 
 int main(void)
 {
@@ -17,7 +17,7 @@ int main(void)
     struct percuss_slow_contact contacts[MY_CONTACTS];
     unsigned asked = 0;
 
-    /* who answers */
+    /* the service */
     struct percuss_client *client;
 #ifdef IN_PROCESS
     enum percuss_result result = percuss_local_open(NULL, &client); /* the installed catalogue */
@@ -31,7 +31,7 @@ int main(void)
     percuss_client_watch(client, my_wait, &asked); /* optional: says that it takes long */
     struct percuss_slow_link link = percuss_slow_link_default(client);
 
-    /* who asks */
+    /* the engine's bodies */
     static const struct percuss_slow_body bodies[MY_BODIES] = {
         [MY_SPHERE] = {.id = "steel-sphere"}, /* names in the catalogue */
         [MY_BEAM] = {.id = "al-beam"},

@@ -30,7 +30,7 @@ static void direction(const struct engine *engine, const struct percuss_slow_con
     }
 }
 
-/* u = M^-1 w less what the constraints take away. */
+/* u = M^-1 w less the part that the constraints take away. */
 static void respond(const struct engine *engine, const double *w, double *u)
 {
     int nv = engine->model->nv;
@@ -168,7 +168,7 @@ static bool find_body(const struct engine *engine, int geom, uint32_t *body)
     return false;
 }
 
-/* By a short free motion: what gravity and the swing of the bodies do to the gap rate. */
+/* By a short free motion: the effect of gravity and of the bodies' swing on the gap rate. */
 static void find_accelerations(struct engine *engine, size_t count,
                                struct percuss_slow_contact *contacts)
 {

@@ -99,7 +99,7 @@ static bool open_scene(const struct choice *choice, const struct scene *scene,
     return true;
 }
 
-/* The same scene with MuJoCo's own contact: what it makes of the first impact. */
+/* The same scene with MuJoCo's own contact: its first impact. */
 static void run_mujoco_alone(const struct choice *choice, const struct scene *scene)
 {
     struct engine engine;

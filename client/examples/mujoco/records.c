@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What was applied to a pair since its last impact belongs to that one. */
+/* Impulses applied to a pair since its last impact belong to that one. */
 static void take_applied(struct records *records, uint32_t a, uint32_t b)
 {
     double *applied = &records->engine->applied[a][b];

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What is written of a run: a table on stdout, and CSV for the plots. */
+/* The records of a run: a table on stdout, and CSV for the plots. */
 #ifndef MUJOCO_RECORDS_H
 #define MUJOCO_RECORDS_H
 
@@ -34,7 +34,7 @@ struct records {
 /* The `report` of struct percuss_slow_config, with the records as context. */
 void records_report(void *context, const struct percuss_slow_report *report);
 
-/* Takes over what was applied in full; at the end of a run. */
+/* Takes over the impulses applied in full; at the end of a run. */
 void records_finish(struct records *records);
 
 /* Appends to impacts.csv. */
