@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A client: who it is, and with which server it stays. Included by percuss.h. */
+/* A client: its identity, and the server that it stays with. Included by percuss.h. */
 #ifndef PERCUSS_CLIENT_H
 #define PERCUSS_CLIENT_H
 
@@ -38,7 +38,7 @@ PERCUSS_API struct percuss_client_config percuss_client_config_default(void);
 PERCUSS_API enum percuss_result percuss_client_create(const struct percuss_client_config *config,
                                                       struct percuss_client **client);
 
-/* The same by DDS Security, as the identity whose folder `security` is, made by percuss-keys.sh and
+/* The same by DDS Security, as the identity in the folder `security`, made by percuss-keys.sh and
  * read here. NULL: the one that PERCUSS_SECURITY in the environment names, if it names one, as
  * percuss_client_create does. INVALID_ARGUMENT for a folder that is not whole. */
 PERCUSS_API enum percuss_result
@@ -53,7 +53,7 @@ PERCUSS_API enum percuss_result percuss_client_create_in(const struct percuss_cl
                                                          const char *security,
                                                          struct percuss_client **client);
 
-/* Whether the permissions of its identity let it only see what servers announce: it can be
+/* Whether the permissions of its identity let it only see announcements of servers: it can be
  * connected to none. */
 PERCUSS_API bool percuss_client_observes(const struct percuss_client *client);
 
@@ -65,25 +65,24 @@ enum { PERCUSS_WARNING_SIZE = 512 };
 PERCUSS_API bool percuss_client_warning(const struct percuss_client *client,
                                         char text[PERCUSS_WARNING_SIZE]);
 
-/* Forgets what is outstanding and leaves the domain; NULL is allowed. */
+/* Forgets outstanding requests and leaves the domain; NULL is allowed. */
 PERCUSS_API void percuss_client_free(struct percuss_client *client);
 
 /* Pings every 5 ms until a server answers, and stays with it: no other one is asked from then on.
  * Of those found within a moment (0.05 s after the first answer, 0.2 s where more are in sight) it
  * takes the one that has been up longest, or the one that the configuration names. Least loaded is,
- * by what each announces once a second, the one with the fewest requests waiting for each of its
- * workers, where a long computation counts as one request for each; with equals, the one up
+ * by the announcements of each once a second, the one with the fewest requests waiting for each of
+ * its workers, where a long computation counts as one request for each; with equals, the one up
  * longest; it is chosen here, once. NO_SERVER: none within the time, or none of that name; TIMEOUT:
  * one is there but has not answered; INVALID_ARGUMENT: several have ids that begin so;
  * INCOMPATIBLE: one is there, but after 2 s a quality of service still does not fit, named in
  * percuss_error_text. It prints nothing: percuss_client_watch lets a program say that it looks.
  *
- * When that server goes, whatever waits for it returns NO_SERVER with its name: at once when it
+ * When that server goes, each waiting call returns NO_SERVER with its name: at once when it
  * ends, within 2 s after it was killed. To be called again then, and after a restart, since a
- * restarted server is another one; what was outstanding is lost then and may be submitted again as
- * it was.
- * But where another process takes its place under its id (percussd's `standby`), percuss_solve asks
- * that one, with the same sequence, and nothing is to be called. */
+ * restarted server is another one; outstanding requests are lost then and may be submitted again as
+ * they were. But where another process takes its place under its id (percussd's `standby`),
+ * percuss_solve asks that one, with the same sequence, and nothing is to be called. */
 PERCUSS_API enum percuss_result percuss_client_connect(struct percuss_client *client,
                                                        double timeout);
 

@@ -18,12 +18,12 @@ struct percuss_client;
 PERCUSS_API void percuss_ensemble_request_init(struct percuss_ensemble_request *request);
 
 /* Told of progress a few times a second, in the calling thread, and of all samples that the reply
- * is of. False cancels: the reply then says what was found so far. */
+ * is of. False cancels: the reply then has the results so far. */
 typedef bool percuss_progress_function(void *context,
                                        const struct percuss_ensemble_progress *progress);
 
 /* Asks and waits as long as there is progress at least every `timeout` seconds. `progress` NULL:
- * nobody watches. The reply is to be freed after OK. One ensemble at a time on one client. */
+ * none is reported. The reply is to be freed after OK. One ensemble at a time on one client. */
 PERCUSS_API enum percuss_result percuss_solve_ensemble(
     struct percuss_client *client, const struct percuss_ensemble_request *request, double timeout,
     percuss_progress_function *progress, void *context, struct percuss_ensemble_reply *reply);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The restitution as a distribution: what an ensemble says. SI units; undefined numbers are NAN.
+/* The restitution as a distribution: the reply to an ensemble. SI units; undefined numbers are NAN.
  * Arrays belong to the reply until percuss_ensemble_reply_free. */
 #ifndef PERCUSS_ENSEMBLE_REPLY_H
 #define PERCUSS_ENSEMBLE_REPLY_H

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Many impacts with uncertain inputs: what is asked. SI units. */
+/* Many impacts with uncertain inputs: the request. SI units. */
 #ifndef PERCUSS_ENSEMBLE_REQUEST_H
 #define PERCUSS_ENSEMBLE_REQUEST_H
 
@@ -32,9 +32,9 @@ enum percuss_distribution {
 enum percuss_sampling { PERCUSS_SAMPLING_LIST(PERCUSS_SAMPLING_MEMBER) PERCUSS_SAMPLING_COUNT };
 
 struct percuss_input {
-    char name[PERCUSS_ID_SIZE]; /* speed, direction; what the models may be wrong by, in standard
-                                   deviations: model-force, model-compliance, model-yield; site,
-                                   young, poisson, density, radius, yield, damping of a body */
+    char name[PERCUSS_ID_SIZE]; /* speed, direction; the models' errors, in standard deviations:
+                                   model-force, model-compliance, model-yield; site, young, poisson,
+                                   density, radius, yield, damping of a body */
     char body[PERCUSS_ID_SIZE]; /* its id; empty: of the contact */
     enum percuss_distribution distribution;
     double first, second; /* constant: value; uniform: range; others: mean and deviation */
@@ -59,7 +59,7 @@ struct percuss_ensemble_request {
     uint64_t samples; /* at most; 0: the values of the lists side by side, each once */
     uint64_t seed;
     double half_width;          /* stop when the mean's 95 % interval is within; 0: never */
-    double quantile_half_width; /* and those of all quantiles; 0: whatever they are */
+    double quantile_half_width; /* and those of all quantiles; 0: not a condition */
     size_t quantile_count;      /* 0: a default set */
     double quantiles[PERCUSS_MAX_QUANTILES];
     uint32_t bins;     /* 0: a default number */

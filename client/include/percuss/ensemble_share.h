@@ -2,13 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* An ensemble shared among processes and machines, by libpercuss-local in each. Sample i is a
- * function of the request and of i alone: the reply is the same to the byte, however the samples
- * are cut and whoever solves them, as long as all have the same catalogue and the same build of the
+ * function of the request and of i alone: the reply is the same to the byte, for any division of
+ * the samples among processes, as long as all have the same catalogue and the same build of the
  * library.
  *
  * One process asks, with percuss_solve_ensemble_shared, and is told which ranges of items are
  * wanted. Others solve them: percuss_ensemble_worker_create with the same request, then
- * percuss_ensemble_worker_solve. What is solved travels as octets, by whatever means. */
+ * percuss_ensemble_worker_solve. Solved parts travel as octets, by any means. */
 #ifndef PERCUSS_ENSEMBLE_SHARE_H
 #define PERCUSS_ENSEMBLE_SHARE_H
 
@@ -51,7 +51,7 @@ percuss_ensemble_worker_solve(struct percuss_ensemble_worker *worker,
 struct percuss_ensemble_sharing;
 
 /* Has the range solved, whole or in any pieces and in any order, and hands over every piece with
- * percuss_ensemble_take, in the calling thread. What is missing when it returns cuts the ensemble
+ * percuss_ensemble_take, in the calling thread. Samples missing when it returns cut the ensemble
  * short. */
 typedef void percuss_share_function(void *context, struct percuss_ensemble_sharing *sharing,
                                     const struct percuss_ensemble_range *range);
@@ -62,8 +62,8 @@ typedef void percuss_share_function(void *context, struct percuss_ensemble_shari
 PERCUSS_API enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *sharing,
                                                       const void *part, size_t size);
 
-/* As percuss_solve_ensemble, with the samples solved by whoever `share` asks; `progress` may be
- * NULL here, too. */
+/* As percuss_solve_ensemble, with the samples solved through `share`; `progress` may be NULL here,
+ * too. */
 PERCUSS_API enum percuss_result
 percuss_solve_ensemble_shared(struct percuss_client *client,
                               const struct percuss_ensemble_request *request,

@@ -3,18 +3,17 @@
 
 /* libpercuss-local: the answers of a percussd, to the same bits, without one.
  *
- * percuss_local_open makes a client whose questions are answered by the solver in this process: no
- * daemon, no network, no DDS. The functions of percuss.h, ensemble.h, trace.h, specimen.h and
- * slow_link.h serve it, here as in libpercuss. It is connected from the beginning, to a server
- * whose id is "percuss in here".
+ * percuss_local_open makes a client of the solver in this process: no daemon, no network, no DDS.
+ * The functions of percuss.h, ensemble.h, trace.h, specimen.h and slow_link.h serve it, here as in
+ * libpercuss. It is connected from the beginning, to a server with the id "percuss in here".
  *
  * A question is solved in the thread that asks: within percuss_solve, or, after percuss_submit,
- * within percuss_wait or percuss_poll. When the timeout passes the solve is given up (TIMEOUT; what
- * was submitted stays outstanding); options.deadline counts from when the solve begins. Several
+ * within percuss_wait or percuss_poll. When the timeout passes the solve is given up (TIMEOUT; a
+ * submitted request stays outstanding); options.deadline counts from when the solve begins. Several
  * threads may ask one client at once: each has a workspace of its own, of which the client keeps as
  * many as were in use together. Only an ensemble starts threads, which end with it; its timeout
- * never passes, as this process says that it goes on. Replies are not kept: what is asked again is
- * solved again.
+ * never passes, as this process says that it goes on. Replies are not kept: a question asked again
+ * is solved again.
  *
  * There is no global state: several clients know nothing of each other, and a program that loaded
  * the library with dlopen may dlclose it when its clients are freed. Of the libraries that it uses,
@@ -45,7 +44,7 @@ struct percuss_local_config {
 PERCUSS_API struct percuss_local_config percuss_local_config_default(void);
 
 /* Reads the catalogue and makes a client; NULL config: the default. The caller frees it.
- * INVALID_ARGUMENT, with file, line and what is allowed, or NO_MEMORY leave *client NULL. */
+ * INVALID_ARGUMENT, with file, line and the allowed values, or NO_MEMORY leave *client NULL. */
 PERCUSS_API enum percuss_result percuss_local_open(const struct percuss_local_config *config,
                                                    struct percuss_client **client);
 

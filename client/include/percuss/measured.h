@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Measured impacts beside simulated ones, and parameters of bodies from them: libpercuss-measured,
- * with a client of libpercuss or of libpercuss-local. SI units; NAN: not known or undefined. What
- * failed says percuss_measured_error_text, not percuss_error_text. A pointer that is NULL is
- * treated as percuss.h says. */
+ * with a client of libpercuss or of libpercuss-local. SI units; NAN: not known or undefined. Errors
+ * are in percuss_measured_error_text, not in percuss_error_text. A pointer that is NULL is treated
+ * as percuss.h says. */
 #ifndef PERCUSS_MEASURED_H
 #define PERCUSS_MEASURED_H
 
@@ -27,7 +27,7 @@ struct percuss_measured_impact {
 /* Impacts of one pair of bodies; opaque. */
 struct percuss_measured;
 
-/* Who is asked, and about what. A moves, B is at rest; the pair's bodies are of the client's
+/* The client, and the scene. A moves, B is at rest; the pair's bodies are of the client's
  * catalogue, its speed is not looked at. */
 struct percuss_measured_question {
     struct percuss_client *client;
@@ -40,7 +40,7 @@ struct percuss_measured_question {
         noise; /* of calibration: relative standard deviation of a measured number to start with */
 };
 
-/* An impact as it was measured, completed by what follows from the masses, and its twin. */
+/* An impact as it was measured, completed by the masses, and its twin. */
 struct percuss_measured_twin {
     struct percuss_measured_impact measured, simulated;
     enum percuss_status status;
@@ -81,7 +81,7 @@ struct percuss_calibration {
     double correlation[PERCUSS_MAX_FITTED][PERCUSS_MAX_FITTED];
     /* the first sub-impact's impulse, its duration, the start of the second */
     size_t known[PERCUSS_FITTED_QUANTITIES], used[PERCUSS_FITTED_QUANTITIES]; /* readings */
-    double scatter[PERCUSS_FITTED_QUANTITIES]; /* relative standard deviation of what remains */
+    double scatter[PERCUSS_FITTED_QUANTITIES]; /* relative standard deviation of the residuals */
     size_t impacts;
     double freedom; /* degrees */
     size_t warning_count;
@@ -94,7 +94,7 @@ extern "C" {
 
 /* Reads a file as percuss compare does, with so many of its --column, each "NAME=HEADING[:UNIT]",
  * or takes over so many impacts: each needs a speed, and a restitution or an impulse.
- * INVALID_ARGUMENT names lines or index, values and what is allowed. To be freed. */
+ * INVALID_ARGUMENT names lines or index, values and the allowed ones. To be freed. */
 PERCUSS_API enum percuss_result percuss_measured_read(const char *file, size_t column_count,
                                                       const char *const *columns,
                                                       struct percuss_measured **measured);
@@ -106,8 +106,8 @@ PERCUSS_API void percuss_measured_free(struct percuss_measured *measured);
 /* The number of impacts. */
 PERCUSS_API size_t percuss_measured_count(const struct percuss_measured *measured);
 
-/* What was noticed when they were taken, such as rows that were left out, a text each, the
- * impacts' as long as they live; NULL from the first index on that has none. */
+/* Notes on their reading, such as omitted rows, a text each, the impacts' as long as they live;
+ * NULL from the first index on that has none. */
 PERCUSS_API const char *percuss_measured_note(const struct percuss_measured *measured,
                                               size_t index);
 
@@ -136,7 +136,7 @@ percuss_measured_calibrate(const struct percuss_measured *measured,
                            struct percuss_calibration *calibration);
 PERCUSS_API void percuss_calibration_free(struct percuss_calibration *calibration);
 
-/* What went wrong in the calling thread's last call of this library that did not return OK. */
+/* The error of the calling thread's last call of this library that did not return OK. */
 PERCUSS_API const char *percuss_measured_error_text(void);
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* libpercuss: ask a percussd what an impact does.
+/* libpercuss: ask a percussd about an impact.
  *
  * percuss_client_create, percuss_client_connect, then percuss_solve as often as you like. Functions
- * return PERCUSS_RESULT_OK or say in percuss_error_text what went wrong. A refusal by the server is
+ * return PERCUSS_RESULT_OK or leave the error in percuss_error_text. A refusal by the server is
  * an answer: OK, with the reason in reply.status and reply.message. Timeouts are seconds from the
  * call, >= 0, INFINITY allowed.
  *
@@ -80,8 +80,8 @@ PERCUSS_API enum percuss_result percuss_ping(struct percuss_client *client, doub
 
 /* The servers of the domain, longest up first, for percuss_server_list_free; need not be connected.
  * Waits until the connected server, or else any, has announced itself, and then up to 0.2 s for
- * others that are known to read requests. More than one, with different catalogue_revision: who
- * connects to any gets answers that depend on which. */
+ * others that are known to read requests. More than one, with different catalogue_revision: a
+ * client that connects to any gets answers that depend on the choice. */
 PERCUSS_API enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
                                                 struct percuss_server_list *list);
 

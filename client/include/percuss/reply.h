@@ -64,7 +64,7 @@ struct percuss_error_estimate {
     double restitution_model;                   /* by the models of contact and bodies */
     double restitution_total;                   /* all three */
     bool total_met;                             /* the tolerance, by that */
-    double restitution_yield; /* of that: what metals whose yield is not stated add */
+    double restitution_yield; /* of that: the part of metals without a stated yield */
 };
 
 struct percuss_body_model {
@@ -82,7 +82,7 @@ struct percuss_model {
     enum percuss_compliance compliance;
     enum percuss_method method;
     char reason[512];     /* why this model */
-    double omitted_error; /* estimated effect on the restitution of what was left out */
+    double omitted_error; /* estimated effect of the omission on the restitution */
 };
 
 struct percuss_timing {

@@ -38,8 +38,8 @@ PERCUSS_API const char *percuss_version(void);
 /* A few words for the result, never NULL. */
 PERCUSS_API const char *percuss_result_text(enum percuss_result result);
 
-/* What went wrong in the calling thread's last call that did not return PERCUSS_RESULT_OK, or that
- * returned NULL: names the field, its value and what is allowed. Valid until the thread's next
+/* The error of the calling thread's last call that did not return PERCUSS_RESULT_OK, or that
+ * returned NULL: names the field, its value and the allowed values. Valid until the thread's next
  * call. */
 PERCUSS_API const char *percuss_error_text(void);
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a server announces of itself and its catalogue, and the placing of two of its bodies. */
+/* A server's announcements of itself and its catalogue, and the placing of two of its bodies. */
 #ifndef PERCUSS_SERVER_H
 #define PERCUSS_SERVER_H
 
@@ -28,8 +28,8 @@ struct percuss_body {
     double radius;                    /* sphere, rod, round beam, cylinder, m; 0: none */
     double tip_radius;                /* of a rod's ends, m; INFINITY: flat; other shapes: 0 */
     enum percuss_support supports[2]; /* rod, beam: at its ends at -x and +x */
-    double parameters[PERCUSS_PARAMETER_COUNT]; /* what a request may override; NAN: it has none;
-                                                   infinite yield: stays elastic */
+    double parameters[PERCUSS_PARAMETER_COUNT]; /* values that a request may override; NAN: it has
+                                                   none; infinite yield: stays elastic */
     double inertia[3];  /* diagonal of the tensor about the centre of mass, kg m^2 */
     double products[3]; /* its elements yz, zx, xy; 0: the axes are principal */
     size_t site_count;  /* places with names: mesh */
@@ -55,12 +55,12 @@ struct percuss_server {
     uint32_t queue_length, queue_capacity;
     uint64_t answered, refused;
     double uptime;              /* s */
-    char activity[256];         /* what a long computation is doing */
+    char activity[256];         /* step of a long computation */
     double progress;            /* 0..1; NAN: nothing is running */
     uint32_t specimens;         /* that it keeps */
     size_t task_count;          /* listed, up to PERCUSS_MAX_TASKS */
     struct percuss_task *tasks; /* those that run before those that wait, the oldest first */
-    uint32_t all_tasks;         /* how many there are; what is answered at once is in none */
+    uint32_t all_tasks;         /* how many there are; requests answered at once are in none */
 };
 
 struct percuss_server_list {
@@ -102,7 +102,7 @@ PERCUSS_API enum percuss_result percuss_contact_pair(const struct percuss_pair *
 PERCUSS_API const struct percuss_body *percuss_body_find(const struct percuss_body_list *list,
                                                          const char *id);
 
-/* Release what percuss_bodies and percuss_servers returned; NULL and empty lists are allowed. */
+/* Release the lists of percuss_bodies and percuss_servers; NULL and empty lists are allowed. */
 PERCUSS_API void percuss_body_list_free(struct percuss_body_list *list);
 PERCUSS_API void percuss_server_list_free(struct percuss_server_list *list);
 

@@ -8,7 +8,7 @@
 #include <percuss/reply.h>
 #include <percuss/slow_equations.h>
 
-/* What `probe` is asked about the present and where it puts the answer. */
+/* The question to `probe` about the present, and the place of its answer. */
 struct percuss_slow_view {
     size_t count;
     const struct percuss_slow_contact *contacts;
@@ -31,8 +31,8 @@ struct percuss_slow_engine {
     bool (*push)(void *context, uint32_t body, const double impulse[3], const double point[3]);
 };
 
-/* Who is asked: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: nobody,
- * every impact has the declared restitution. `problem` (may be NULL): why solve failed. */
+/* The service: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: none, every
+ * impact has the declared restitution. `problem` (may be NULL): why solve failed. */
 struct percuss_slow_service {
     void *context;
     enum percuss_result (*solve)(void *context, const struct percuss_request *request,

@@ -18,11 +18,11 @@ extern "C" {
 
 /* Impulses that stop the approach: 0 <= W impulse + gap_rate, complementary to impulse >= 0; Eq.
  * (4) for one contact. One contact is solved directly, several by Lemke's method, with the residual
- * checked. False: no solution (W is not what it should be), or no memory. */
+ * checked. False: no solution (W is no Delassus matrix), or no memory. */
 PERCUSS_API bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate,
                                           double *impulse);
 
-/* What an impact with the given coefficients does, Eq. (5). */
+/* The outcome of an impact with the given coefficients, Eq. (5). */
 struct percuss_slow_outcome {
     double *compression;    /* [n], as percuss_slow_compression; may be NULL */
     double *impulse;        /* [n] */

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Belongs to the caller, who keeps it and the client as long as the service is used. */
+/* Belongs to the caller, and is kept with the client as long as the service is used. */
 struct percuss_slow_link {
     struct percuss_client *client;
     double timeout;   /* s, for an answer, with all attempts */
@@ -21,9 +21,9 @@ struct percuss_slow_link {
 };
 
 /* A link by a client (NULL: every question is refused), connected or not yet: 60 s for an answer,
- * 10 s for a server. Answers take
- * milliseconds and a server is found within a second or two; the limits are long because whoever
- * meets them gets other results, and a loaded machine must not: they only end what would hang. */
+ * 10 s for a server. Answers take milliseconds and a server is found within a second or two; the
+ * limits are long because reaching one changes the results, which a loaded machine must not: they
+ * only end a hang. */
 PERCUSS_API struct percuss_slow_link percuss_slow_link_default(struct percuss_client *client);
 
 /* The service for struct percuss_slow_config; by a link that is NULL it refuses every question. A

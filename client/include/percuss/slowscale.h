@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The slow scale of a co-simulation: tells a multibody engine when an impact is due, asks a service
- * what it does, and applies the answer. It knows the engine by three callbacks and the service by
- * one (slow_link.h has it for percussd). docs/integrating.md is the way through.
+ * for its outcome, and applies the answer. It knows the engine by three callbacks and the service
+ * by one (slow_link.h has it for percussd). docs/integrating.md is the way through.
  *
  * After every accepted step the engine hands over all pairs that are near each other. A pair that
  * overlaps and approaches is due; with everything it is coupled to it becomes one question. While
@@ -21,24 +21,24 @@
 #include <percuss/slow_engine.h>
 
 enum percuss_slow_application {
-    PERCUSS_SLOW_LIST, /* each sub-impact at its time; what has not happened can be revoked */
+    PERCUSS_SLOW_LIST, /* each sub-impact at its time; those to come can be revoked */
     PERCUSS_SLOW_TOTAL /* the whole impulse at the start */
 };
 
-/* What was done about an impact; borrowed for the time of the call. */
+/* The treatment of an impact; borrowed for the time of the call. */
 struct percuss_slow_report {
     double time;
     size_t count; /* contacts of the group */
     const struct percuss_slow_contact *contacts;
     const double *gap_rate, *delassus, *impulse, *restitution; /* restitution NAN: no compression */
     const struct percuss_reply *reply; /* NULL: the declared restitution was used */
-    const char *message;               /* why, and what else the user should know; "": nothing */
+    const char *message;               /* the reason, and other notes to the user; "": none */
     uint64_t declared; /* impacts with the declared restitution so far, this one included */
 };
 
 struct percuss_slow_body {
     const char *id; /* in the service's catalogue */
-    bool fixed;     /* holds still whatever hits it: does not couple the impacts on it */
+    bool fixed;     /* holds still in any impact: does not couple the impacts on it */
 };
 
 struct percuss_slow_config {
@@ -48,10 +48,11 @@ struct percuss_slow_config {
     struct percuss_slow_service service;
     struct percuss_options options;
     enum percuss_slow_application application;
-    double restitution; /* declared, 0..1: used where nobody is asked, or by fall_back */
+    double restitution; /* declared, 0..1: used without a service, or by fall_back */
     double rest_speed;  /* m/s; slower approaches are no impacts: the engine's own contact holds
-                           them. 0: what presses a pair that lay together (its gap acceleration;
-                           earth's gravity if that is 0) can bring about in one step of the engine */
+                           them. 0: the speed that a pair that lay together gains by the acceleration
+                           pressing it (its gap acceleration; earth's gravity if that is 0) in one
+                           step of the engine */
     double group_gap;   /* m; a coupled pair this near joins an impact */
     void (*report)(void *context, const struct percuss_slow_report *report); /* may be NULL */
     void *report_context;
@@ -83,19 +84,19 @@ PERCUSS_API enum percuss_result percuss_slow_create(const struct percuss_slow_co
 PERCUSS_API void percuss_slow_free(struct percuss_slow *slow); /* NULL is allowed */
 
 /* Whether an impact is due among these contacts, all those near touching at a trial state: for
- * event location. Changes nothing and asks nobody. */
+ * event location. Changes nothing and asks no service. */
 PERCUSS_API bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
                                   const struct percuss_slow_contact *contacts);
 
 /* Time of the next sub-impact to be played: let the step end there. INFINITY: none. */
 PERCUSS_API double percuss_slow_next(const struct percuss_slow *slow);
 
-/* To be called at every accepted state, with all contacts near touching: plays the sub-impacts
- * whose time has come, then solves the impacts that are due. Velocities may have changed
- * afterwards. Without fall_back, an impact that has no answer is an error: NO_SERVER, TIMEOUT or
- * what else the service returned, INVALID_ARGUMENT for a question that it refuses. The impact then
- * has not happened and nothing is lost: call again at the same state, or later, and it is asked
- * about again. INVALID_ARGUMENT, NO_MEMORY otherwise: see percuss_slow_error_text. */
+/* To be called at every accepted state, with all contacts near touching: plays the sub-impacts that
+ * are due, then solves the impacts that are due. Velocities may have changed afterwards. Without
+ * fall_back, an impact that has no answer is an error: NO_SERVER, TIMEOUT or another result of the
+ * service, INVALID_ARGUMENT for a question that it refuses. The impact then has not happened and
+ * nothing is lost: call again at the same state, or later, and it is asked about again.
+ * INVALID_ARGUMENT, NO_MEMORY otherwise: see percuss_slow_error_text. */
 PERCUSS_API enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count,
                                                      const struct percuss_slow_contact *contacts);
 
@@ -115,7 +116,7 @@ struct percuss_slow_counts {
 /* The work done since percuss_slow_create. */
 PERCUSS_API struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow);
 
-/* What went wrong in the thread's last call that did not return OK, or was given a NULL. */
+/* The error of the thread's last call that did not return OK, or was given a NULL. */
 PERCUSS_API const char *percuss_slow_error_text(void);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Specimens: bodies whose dents a server keeps on disk, as on a rig. */
+/* Specimens: bodies with dents that a server keeps on disk, as on a rig. */
 #ifndef PERCUSS_SPECIMEN_H
 #define PERCUSS_SPECIMEN_H
 
@@ -44,7 +44,7 @@ PERCUSS_API enum percuss_result percuss_specimens(struct percuss_client *client,
 PERCUSS_API enum percuss_result percuss_clear_specimen(struct percuss_client *client,
                                                        const char *name, double timeout);
 
-/* Releases what percuss_specimens returned; NULL and empty lists are allowed. */
+/* Releases the list of percuss_specimens; NULL and empty lists are allowed. */
 PERCUSS_API void percuss_specimen_list_free(struct percuss_specimen_list *list);
 
 #ifdef __cplusplus

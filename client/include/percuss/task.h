@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a server is doing, and what waits there for its turn. */
+/* The tasks of a server: running, or waiting for their turn. */
 #ifndef PERCUSS_TASK_H
 #define PERCUSS_TASK_H
 
@@ -25,7 +25,7 @@ enum percuss_task_kind { PERCUSS_TASK_KIND_LIST(PERCUSS_TASK_MEMBER) PERCUSS_TAS
 enum { PERCUSS_MAX_TASKS = 16 };
 
 struct percuss_task {
-    uint8_t client[16];          /* who waits for it; zeros: nobody */
+    uint8_t client[16];          /* id of the client that waits for it; zeros: none */
     uint64_t sequence;           /* its number, of that client */
     enum percuss_task_kind kind; /* PERCUSS_TASK_... */
     bool running;                /* false: it waits for its turn */

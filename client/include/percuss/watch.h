@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Whoever looks on while a call waits: to end it, or to tell how long it takes. */
+/* A watch over a waiting call: to end it, or to show its time. */
 #ifndef PERCUSS_WATCH_H
 #define PERCUSS_WATCH_H
 
@@ -20,9 +20,9 @@ struct percuss_client;
 typedef bool percuss_watch_function(void *context);
 
 /* From now on `watch` is asked while calls of this thread on that client wait for an answer; NULL:
- * nobody is. What is given up returns CANCELLED, and the server is told that nobody waits for it;
- * but what percuss_wait waits for stays outstanding, see percuss_cancel. A client has one watch:
- * the one set last, for the thread that has set it. */
+ * no watch. A call that is given up returns CANCELLED, and the server is told that no call waits
+ * for it; but the request of percuss_wait stays outstanding, see percuss_cancel. A client has one
+ * watch: the one set last, for the thread that has set it. */
 PERCUSS_API void percuss_client_watch(struct percuss_client *client, percuss_watch_function *watch,
                                       void *context);
 
