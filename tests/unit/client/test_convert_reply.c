@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/api/convert_reply.c: every field of a wire reply arrives, and its memory goes. */
+/* Tests client/api/convert.c: every field of a wire reply arrives, and its memory goes. */
 #include "check.h"
 #include "convert.h"
 #include "unit/client/wire_reply.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/api/convert_request.c and request.c: every field reaches the wire, and what does not
+/* Tests client/api/convert.c and request.c: every field reaches the wire, and what does not
  * fit is refused by name. */
 #include <string.h>
 
