@@ -1,6 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+/* Time histories of an impact: their reading, the flights and contacts in them, and their
+ * alignment. */
+
 #include "history.h"
 
 #include <math.h>
@@ -8,6 +11,183 @@
 #include <string.h>
 
 #include "distance.h"
+#include "table.h"
+#include "text.h"
+
+/* Reading a file. */
+
+/* Replaces displacements by their differences: central ones, one-sided at the ends. */
+static bool differentiate(const double *time, double *values, size_t count)
+{
+    double *slope = calloc(count, sizeof *slope);
+    if (!slope)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        size_t before = i > 0 ? i - 1 : 0, after = i + 1 < count ? i + 1 : i;
+        slope[i] = (values[after] - values[before]) / (time[after] - time[before]);
+    }
+    memcpy(values, slope, count * sizeof *values);
+    free(slope);
+    return true;
+}
+
+/* The columns that are read: time, and of each body its velocity or else its displacement;
+ * HISTORY_COLUMNS: B was not measured. */
+struct choice {
+    size_t column[3];
+    double *values[3];
+};
+
+static size_t choose(const struct table *table, size_t velocity, size_t displacement)
+{
+    if (table_has(table, velocity))
+        return velocity;
+    return table_has(table, displacement) ? displacement : HISTORY_COLUMNS;
+}
+
+/* False with the columns that are missing. */
+static bool choose_columns(const struct table *table, struct choice *choice,
+                           struct measured_remarks *remarks)
+{
+    const char *file = text_name(table->layout.source->file);
+    char list[256];
+    bool time = table_has(table, HISTORY_TIME);
+    choice->column[0] = HISTORY_TIME;
+    choice->column[1] = choose(table, HISTORY_VELOCITY_A, HISTORY_DISPLACEMENT_A);
+    choice->column[2] = choose(table, HISTORY_VELOCITY_B, HISTORY_DISPLACEMENT_B);
+    bool motion = choice->column[1] < HISTORY_COLUMNS;
+    layout_list(&table->layout, true, list, sizeof list);
+    if (!time)
+        remarks_wrong(remarks, "%s: column 'time': missing; there are %s", file, list);
+    if (!motion)
+        remarks_wrong(remarks, "%s: column 'velocity_a' or 'displacement_a': missing; there are %s",
+                      file, list);
+    return time && motion;
+}
+
+/* Whether all readings of the row are there; they are taken as number `count`. */
+static bool take_reading(struct table *table, size_t row, const struct choice *choice, size_t count,
+                         struct measured_remarks *remarks)
+{
+    bool whole = true;
+    for (int i = 0; i < 3; i++) {
+        if (!choice->values[i])
+            continue;
+        double *value = &choice->values[i][count];
+        whole = table_number(table, row, choice->column[i], value, remarks) && whole;
+        whole = whole && !isnan(*value);
+    }
+    return whole;
+}
+
+static void check_order(const struct table *table, size_t row, const struct choice *choice,
+                        size_t count, struct measured_remarks *remarks)
+{
+    const double *time = choice->values[0];
+    if (count > 0 && !(time[count] > time[count - 1]))
+        remarks_wrong(remarks, "%s:%zu: time: %.10g: must be later than the line before",
+                      text_name(table->layout.source->file), table->numbers[row], time[count]);
+}
+
+/* Returns the number of readings; names faults. */
+static size_t take_readings(struct table *table, const struct choice *choice,
+                            struct measured_remarks *remarks)
+{
+    const char *file = text_name(table->layout.source->file);
+    struct left_out left = {0};
+    char text[400] = "";
+    size_t count = 0;
+    for (size_t row = 0; row < table->rows; row++) {
+        size_t errors = remarks->errors;
+        if (take_reading(table, row, choice, count, remarks))
+            check_order(table, row, choice, count++, remarks);
+        else if (remarks->errors == errors)
+            left_out_add(&left, table->numbers[row]);
+    }
+    /* a gap hides an event in it */
+    left_out_tell(&left, "readings that are not there", text, sizeof text);
+    if (10 * left.count > table->rows)
+        remarks_wrong(remarks, "%s: %zu of %zu rows: %s: must be at most a tenth", file, left.count,
+                      table->rows, text);
+    else if (left.count > 0)
+        remarks_note(remarks, "%s: %zu of %zu rows left out: %s", file, left.count, table->rows,
+                     text);
+    if (count < HISTORY_LEAST_READINGS)
+        remarks_wrong(remarks, "%s: %zu readings: must be at least %d", file, count,
+                      HISTORY_LEAST_READINGS);
+    return count;
+}
+
+/* Room for the columns; false: out of memory. */
+static bool make_room(const struct table *table, struct choice *choice)
+{
+    bool good = true;
+    for (int i = 0; i < 3; i++)
+        if (choice->column[i] < HISTORY_COLUMNS) {
+            choice->values[i] = calloc(table->rows + 1, sizeof(double));
+            good = good && choice->values[i];
+        }
+    return good;
+}
+
+/* Differences of displacements; false: out of memory. */
+static bool derive(const struct choice *choice, struct history *history)
+{
+    bool good = true;
+    for (int i = 1; i < 3; i++) {
+        size_t column = choice->column[i];
+        if (column != HISTORY_DISPLACEMENT_A && column != HISTORY_DISPLACEMENT_B)
+            continue;
+        history->from_displacement = true;
+        /* A's flights are fitted to the readings themselves */
+        if (i == 1) {
+            history->displacement_a = calloc(history->count, sizeof(double));
+            good = history->displacement_a;
+            if (good)
+                memcpy(history->displacement_a, choice->values[i], history->count * sizeof(double));
+        }
+        good = good && differentiate(history->time, choice->values[i], history->count);
+    }
+    return good;
+}
+
+static void read_table(struct table *table, struct history *history,
+                       struct measured_remarks *remarks)
+{
+    struct choice choice = {{0}, {NULL, NULL, NULL}};
+    const char *file = text_name(table->layout.source->file);
+    size_t errors = remarks->errors;
+    if (!choose_columns(table, &choice, remarks))
+        return;
+    bool memory = make_room(table, &choice);
+    *history = (struct history){
+        .time = choice.values[0], .velocity_a = choice.values[1], .velocity_b = choice.values[2]};
+    if (memory)
+        history->count = take_readings(table, &choice, remarks);
+    if (memory && remarks->errors == errors)
+        memory = derive(&choice, history);
+    if (!memory)
+        remarks_wrong(remarks, "%s: out of memory", file);
+}
+
+bool history_read(const char *file, const struct column_map *map, struct history *history,
+                  struct measured_remarks *remarks)
+{
+    const struct table_source source = {file, HISTORY_KINDS, HISTORY_COLUMNS, map};
+    struct table table;
+    size_t errors = remarks->errors;
+    *history = (struct history){0};
+    if (!table_read(&source, &table, remarks))
+        return false;
+    read_table(&table, history, remarks);
+    table_free(&table);
+    if (remarks->errors == errors)
+        return true;
+    history_free(history);
+    return false;
+}
+
+/* Flights and contacts. */
 
 enum { LEAST_FLIGHT = 3 };
 /* Rounds in which flights and their acceleration are found from each other. */
@@ -498,4 +678,59 @@ bool history_find(const struct history *history, struct history_impacts *impacts
     free(search.v);
     free(search.sum);
     return good;
+}
+
+/* Alignment of a history with the first touch, and displacements. */
+
+/* By trapezoids, 0 at time 0 (between two readings: by the line through them). */
+static void integrate(const struct history_motion *motion, const double *velocity,
+                      double *displacement)
+{
+    const double *time = motion->time;
+    double at_zero = 0.0;
+    for (size_t i = 1; i < motion->count; i++) {
+        double step = 0.5 * (velocity[i - 1] + velocity[i]) * (time[i] - time[i - 1]);
+        displacement[i] = displacement[i - 1] + step;
+        if (time[i - 1] <= 0.0 && time[i] > 0.0)
+            at_zero = displacement[i - 1] - step * time[i - 1] / (time[i] - time[i - 1]);
+    }
+    for (size_t i = 0; i < motion->count; i++)
+        displacement[i] -= at_zero;
+}
+
+bool history_align(const struct history *history, const struct history_impacts *impacts,
+                   struct history_motion *motion)
+{
+    const double *measured[2] = {history->velocity_a, history->velocity_b};
+    double start = impacts->list[0].start;
+    double sign = impacts->direction;
+    size_t count = history->count;
+    *motion = (struct history_motion){.count = count, .time = calloc(count, sizeof(double))};
+    bool good = motion->time;
+    /* from the first touch on */
+    for (size_t i = 0; good && i < count; i++)
+        motion->time[i] = history->time[i] - start;
+    /* the motion of each body that was measured */
+    for (int which = 0; good && which < 2 && measured[which]; which++) {
+        motion->velocity[which] = calloc(count, sizeof(double));
+        motion->displacement[which] = calloc(count, sizeof(double));
+        good = motion->velocity[which] && motion->displacement[which];
+        for (size_t i = 0; good && i < count; i++)
+            motion->velocity[which][i] = sign * measured[which][i];
+        if (good)
+            integrate(motion, motion->velocity[which], motion->displacement[which]);
+    }
+    if (!good)
+        history_motion_free(motion);
+    return good;
+}
+
+void history_motion_free(struct history_motion *motion)
+{
+    free(motion->time);
+    for (int which = 0; which < 2; which++) {
+        free(motion->velocity[which]);
+        free(motion->displacement[which]);
+    }
+    *motion = (struct history_motion){0};
 }

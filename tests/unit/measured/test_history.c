@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/measured/history.c, history_read.c and history_align.c: sub-impacts of known start,
+/* Tests client/measured/history.c: sub-impacts of known start,
  * length and jump are found again in noisy readings, and bad files are refused by line. */
 #include "files.h"
 #include "impact.h"
