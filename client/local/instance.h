@@ -52,6 +52,9 @@ struct percuss_client {
 /* Takes `count` consecutive sequences, beginning with `wanted` if that is not 0. */
 uint64_t instance_draw_sequences(struct percuss_client *client, uint64_t wanted, size_t count);
 
+/* Forgets all questions of percuss_submit (outstanding.c). */
+void outstanding_clear(struct percuss_client *client);
+
 /* 16 octets that all clients of this library answer under. */
 extern const uint8_t INSTANCE_SERVER[16];
 

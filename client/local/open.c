@@ -16,7 +16,6 @@
 #include "exchange/clock.h"
 #include "instance.h"
 #include "library.h"
-#include "outstanding.h"
 
 static const double MEGABYTE = 1048576.0;
 

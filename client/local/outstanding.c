@@ -3,8 +3,6 @@
 
 /* Questions to the solver in this process: at once, in batches and outstanding. */
 
-#include "outstanding.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +13,7 @@
 #include "exchange/encode.h"
 #include "exchange/question.h"
 #include "gather.h"
+#include "instance.h"
 #include "library.h"
 #include "moment.h"
 #include "specimens.h"

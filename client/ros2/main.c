@@ -10,6 +10,7 @@
 #include <percuss/percuss.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,10 +20,22 @@
 #include "base/units.h"
 #include "give.h"
 #include "percuss/habits.h"
-#include "say.h"
 #include "service.h"
 #include "take.h"
 #include "wire.h"
+
+/* A line on standard error. */
+__attribute__((format(printf, 1, 2))) static void say(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    flockfile(stderr);
+    fputs("percuss-ros2: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    funlockfile(stderr);
+    va_end(arguments);
+}
 
 /* The side of percussd. */
 

@@ -1,16 +1,349 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include <percuss/slowscale.h>
+/* The slow scale: its state, and the impacts that are due at an accepted state. */
 
 #include <math.h>
+#include <percuss/slowscale.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "episode.h"
 #include "group.h"
-#include "impact.h"
 #include "pairs.h"
+#include "question.h"
+
+/* One impact: the group of contacts, the question, the answer or the declared restitution. */
+
+/* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
+static const double NO_COUPLING = 1e-12;
+
+/* Change of speed by an acceleration during an impact, relative to the approach, below which it is
+ * omitted. */
+static const double NEGLIGIBLE = 1e-3;
+
+/* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
+ * vibration. */
+static bool are_coupled(const struct percuss_slow *slow, const struct group *seen, size_t i,
+                        size_t j)
+{
+    const struct percuss_slow_contact *x = &seen->contacts[i], *y = &seen->contacts[j];
+    const uint32_t shared[4][2] = {{x->a, y->a}, {x->a, y->b}, {x->b, y->a}, {x->b, y->b}};
+    for (int k = 0; k < 4; k++)
+        if (shared[k][0] == shared[k][1] && !slow->bodies[shared[k][0]].fixed)
+            return true;
+    size_t n = seen->count;
+    double size = sqrt(seen->delassus[i * n + i] * seen->delassus[j * n + j]);
+    return fabs(seen->delassus[i * n + j]) > NO_COUPLING * size;
+}
+
+/* Whether a contact may take part: it touches or nearly does, or its list is being played and can
+ * be revoked. Impulses applied in one go have happened. */
+static bool may_join(const struct percuss_slow *slow, const struct group *seen, size_t i,
+                     double now)
+{
+    if (episode_of(slow, &seen->contacts[i], now))
+        return true;
+    const struct pair *pair = pairs_find(slow, &seen->contacts[i]);
+    return seen->contacts[i].gap <= slow->config.group_gap &&
+           !(pair && pair->latch == LATCH_PLAYING);
+}
+
+/* Marks `first` and all contacts coupled to it through touching pairs; returns their number. */
+static size_t mark_members(const struct percuss_slow *slow, const struct group *seen, size_t first,
+                           double now, bool *member)
+{
+    size_t count = 1;
+    bool grown = true;
+    member[first] = true;
+    while (grown) {
+        grown = false;
+        for (size_t i = 0; i < seen->count; i++) {
+            if (member[i] || !may_join(slow, seen, i, now))
+                continue;
+            for (size_t j = 0; j < seen->count && !member[i]; j++)
+                member[i] = member[j] && are_coupled(slow, seen, i, j);
+            count += member[i];
+            grown = grown || member[i];
+        }
+    }
+    return count;
+}
+
+/* Revokes the members' episodes, back to an instant without a sub-impact under way: the new
+ * question begins there. Rates change.
+ *
+ *     list 1   ...[====]....[====]........   [ ] a sub-impact
+ *     list 2   .......[===].....[=====]...   1 now, in one of list 2
+ *                          3   2    1        2 before it, in one of list 1
+ *                                            3 before that, in none: the start
+ */
+static enum percuss_result preempt(struct percuss_slow *slow, struct group *group, double now)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    group->start = now;
+    /* a pause of one list may be the midst of a sub-impact of another */
+    for (bool moved = true; moved;) {
+        moved = false;
+        for (size_t i = 0; i < group->count; i++) {
+            const struct episode *episode = episode_of(slow, &group->contacts[i], now);
+            double start = episode ? episode_pause(episode, group->start) : group->start;
+            moved = moved || start < group->start;
+            group->start = fmin(group->start, start);
+        }
+    }
+    /* all go back to the same instant */
+    for (size_t i = 0; !result && i < group->count; i++) {
+        struct episode *episode = episode_of(slow, &group->contacts[i], now);
+        if (episode)
+            result = episode_revoke(slow, episode, group, now);
+    }
+    return result;
+}
+
+/* The gaps at the group's start, as straight motion from there, without the impulses taken back,
+ * led to those of now. */
+static void go_back(const struct percuss_slow *slow, struct group *group, double now)
+{
+    double back = now - group->start;
+    for (size_t i = 0; i < group->count; i++) {
+        struct percuss_slow_contact *contact = &group->contacts[i];
+        for (size_t j = 0; j < group->count; j++)
+            contact->gap -= group->delassus[i * group->count + j] * group->moved[j];
+        if (slow->config.move) /* where the bodies are by now */
+            pairs_find(slow, contact)->contact.gap = contact->gap;
+        contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
+    }
+}
+
+static bool use_declared(const struct percuss_slow *slow, struct group *group)
+{
+    struct percuss_slow_outcome outcome = {.impulse = group->impulse};
+    for (size_t i = 0; i < group->count; i++)
+        group->restitution[i] = slow->config.restitution;
+    return percuss_slow_poisson(group->count, group->delassus, group->gap_rate, group->restitution,
+                                &outcome);
+}
+
+static enum percuss_result report(const struct percuss_slow *slow, struct group *group)
+{
+    /* the coefficients that the impulses amount to, Eq. (6) */
+    if (!percuss_slow_restitution(group->count, group->delassus, group->gap_rate, group->impulse,
+                                  group->restitution))
+        for (size_t i = 0; i < group->count; i++)
+            group->restitution[i] = NAN;
+    struct percuss_slow_report text = {
+        .time = group->start,
+        .count = group->count,
+        .contacts = group->contacts,
+        .gap_rate = group->gap_rate,
+        .delassus = group->delassus,
+        .impulse = group->impulse,
+        .restitution = group->restitution,
+        .reply = group->reply,
+        .message = group->message,
+        .declared = slow->counts.declared,
+    };
+    if (slow->config.report)
+        slow->config.report(slow->config.report_context, &text);
+    return PERCUSS_RESULT_OK;
+}
+
+/* Other bodies under the same names change the results: another server, or a catalogue that was
+ * read again, is not gone over to without a word. */
+static void compare_catalogue(const struct percuss_slow *slow, struct group *group)
+{
+    const char *revision = group->answer.catalogue_revision;
+    if (slow->catalogue[0] && revision[0] && strcmp(revision, slow->catalogue) != 0)
+        group_note(group, "answered with another catalogue (%.8s) than before (%.8s)", revision,
+                   slow->catalogue);
+}
+
+static void keep_catalogue(struct percuss_slow *slow, const struct percuss_reply *reply)
+{
+    if (reply->catalogue_revision[0])
+        snprintf(slow->catalogue, sizeof slow->catalogue, "%s", reply->catalogue_revision);
+}
+
+/* Asks about the group. OK with group->reply NULL: the declared restitution is to be used, which
+ * takes the user's leave. */
+static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
+                               struct percuss_request *request)
+{
+    if (!slow->config.service.solve)
+        return PERCUSS_RESULT_OK;
+    /* one question about all of them */
+    enum percuss_result result = PERCUSS_RESULT_INVALID_ARGUMENT;
+    if (question_make(slow, group, group->start, request))
+        result = question_ask(slow, group, request, &group->answer);
+    else
+        snprintf(group->why, sizeof group->why, "%zu contacts are more than one question holds",
+                 group->count);
+    /* the service's impulses */
+    if (!result) {
+        group->reply = &group->answer;
+        compare_catalogue(slow, group);
+        for (size_t i = 0; i < group->count; i++)
+            group->impulse[i] = group->answer.contacts[i].impulse;
+        return PERCUSS_RESULT_OK;
+    }
+    /* the declared restitution, with the user's leave */
+    slow->config.service.release(&group->answer);
+    if (!slow->config.fall_back)
+        return question_fail(slow, group, result);
+    group_note(group, "%s: declared restitution %g used", group->why, slow->config.restitution);
+    return PERCUSS_RESULT_OK;
+}
+
+/* Begins the episode of the group's answer, or of its impulses. */
+static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
+                                 const struct percuss_request *request, double now)
+{
+    size_t applied = 0;
+    /* takes the place of the revoked episodes */
+    slow->counts.impacts++;
+    slow->counts.declared += !group->reply;
+    episodes_drop_revoked(slow);
+    /* the bodies' vibration is that of the answer, or unknown */
+    if (group->reply) {
+        keep_catalogue(slow, group->reply);
+        tokens_keep(slow, group->contacts, request, group->reply,
+                    group->start + group->reply->window);
+    } else {
+        tokens_forget(slow, group->count, group->contacts);
+    }
+    /* plays up to now: the start may lie before */
+    enum percuss_result result = episode_begin(slow, group, request);
+    if (!result)
+        result = report(slow, group);
+    if (!result)
+        result = episodes_play(slow, now, &applied);
+    if (group->reply)
+        slow->config.service.release(&group->answer);
+    return result;
+}
+
+/* Finds the impulses of a group that has been probed. */
+static enum percuss_result find_impulses(struct percuss_slow *slow, struct group *group,
+                                         struct percuss_request *request)
+{
+    enum percuss_result result = ask(slow, group, request);
+    if (result || group->reply || use_declared(slow, group))
+        return result;
+    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                     "delassus: no impulses stop the approach of %zu contacts: check the engine's "
+                     "matrix",
+                     group->count);
+}
+
+/* The members of `all` as a group. NULL: no memory. */
+static struct group *gather(const struct percuss_slow *slow, const struct group *all, size_t first,
+                            double now)
+{
+    bool *member = calloc(all->count, sizeof *member);
+    struct group *group =
+        member ? group_create(slow, mark_members(slow, all, first, now, member)) : NULL;
+    size_t next = 0;
+    for (size_t i = 0; group && i < all->count; i++)
+        if (member[i])
+            group->contacts[next++] = all->contacts[i];
+    free(member);
+    return group;
+}
+
+/* The gap acceleration of a member, as the engine states it or as its rates showed it. */
+static double acceleration(const struct percuss_slow *slow,
+                           const struct percuss_slow_contact *member)
+{
+    const struct pair *pair = pairs_find(slow, member);
+    return member->gap_acceleration != 0.0 || !pair ? member->gap_acceleration : pair->acceleration;
+}
+
+/* Without config.move, impulses that are not applied at their times leave the bodies in wrong
+ * places. Pressing or swinging accelerations make energy of that: TOTAL is then refused. */
+static enum percuss_result check_places(const struct percuss_slow *slow, struct group *group,
+                                        double now)
+{
+    double latest = 0.0;
+    for (size_t i = 0; group->reply && !slow->config.move && i < group->count; i++) {
+        const struct percuss_contact_result *contact = &group->reply->contacts[i];
+        double a = acceleration(slow, &group->contacts[i]);
+        /* all at the start: the effect of the gap's acceleration meanwhile must be negligible */
+        if (slow->config.application == PERCUSS_SLOW_TOTAL &&
+            fabs(a) * contact->end_time > NEGLIGIBLE * fabs(group->gap_rate[i]))
+            return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                             "application: total: the gap of %s and %s accelerates with %.3g m/s^2 "
+                             "during an impact of %.3g s, which would change its energy: give "
+                             "config.move, or use the list",
+                             slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], a,
+                             contact->end_time);
+        /* of a list, impulses due before now come late */
+        for (uint32_t j = 0; j < contact->sub_impacts_listed; j++)
+            latest = fmax(latest,
+                          now - group->start - percuss_slow_force_centre(&contact->sub_impacts[j]));
+    }
+    if (latest > SLOW_INSTANT)
+        group_note(group, "impulses applied up to %.3g s late without config.move", latest);
+    return PERCUSS_RESULT_OK;
+}
+
+/* Revokes and asks. A failure leaves all as it was. */
+static enum percuss_result prepare(struct percuss_slow *slow, struct group *group,
+                                   struct percuss_request *request, double now)
+{
+    size_t size = slow->config.body_count * sizeof *slow->tokens;
+    /* vibration as it was, should anything fail */
+    struct token *tokens = malloc(size);
+    if (!tokens)
+        return slow_no_memory();
+    memcpy(tokens, slow->tokens, size);
+    /* the question is of the state of the start, which may lie before now */
+    enum percuss_result result = preempt(slow, group, now);
+    if (!result)
+        result = group_probe(slow, group, true);
+    if (!result) {
+        go_back(slow, group, now);
+        result = find_impulses(slow, group, request);
+    }
+    if (!result)
+        result = check_places(slow, group, now);
+    /* back to where all was */
+    if (result) {
+        if (group->reply)
+            slow->config.service.release(&group->answer);
+        memcpy(slow->tokens, tokens, size);
+        enum percuss_result restored = episodes_restore_revoked(slow, now);
+        result = restored ? restored : result;
+    }
+    free(tokens);
+    return result;
+}
+
+/* Solves the impact of the due contact `first` of `seen`, a group that has been probed. */
+static enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *seen,
+                                        size_t first, double now)
+{
+    /* everything near as it is now, bodies and matrix included */
+    struct group *all = group_create(slow, seen->count), *group = NULL;
+    struct percuss_request *request = malloc(sizeof *request);
+    enum percuss_result result = all && request ? PERCUSS_RESULT_OK : slow_no_memory();
+    if (!result) {
+        memcpy(all->contacts, seen->contacts, seen->count * sizeof *seen->contacts);
+        result = group_probe(slow, all, true);
+    }
+    if (!result) {
+        /* of these the group of the first one */
+        group = gather(slow, all, first, now);
+        result = group ? prepare(slow, group, request, now) : slow_no_memory();
+    }
+    if (!result)
+        result = begin(slow, group, request, now);
+    free(group);
+    free(request);
+    free(all);
+    return result;
+}
 
 struct percuss_slow_config percuss_slow_config_default(void)
 {

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/cli/plot_range.c: an axis holds every number, whatever the numbers are. */
+/* Tests client/cli/plot.c: an axis holds every number, whatever the numbers are. */
 #include <stdlib.h>
 
 #include "check.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors client/slowscale/question.c and impact.c: what is asked again, and what happens without
- * an answer: with the user's leave the declared restitution, else nothing. */
+/* Mirrors client/slowscale/question.c and slowscale.c: what is asked again, and what happens
+ * without an answer: with the user's leave the declared restitution, else nothing. */
 #include "unit/slowscale/toy.h"
 
 /* The bodies fly apart and meet again: the next impact. */
