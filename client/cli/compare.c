@@ -3,13 +3,324 @@
 
 /* percuss compare: measured impacts beside computed ones. */
 
-#include "compare.h"
-
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "cli.h"
+#include "csv.h"
+#include "differences.h"
+#include "json_writer.h"
 #include "measured_file.h"
+#include "plot.h"
+#include "twins.h"
 #include "waiting.h"
+
+/* Measured impacts beside their twins: as a table, as CSV, as JSON and as a picture. */
+
+struct comparison {
+    const struct scene *scene;
+    const char *title; /* the scene in words */
+    const struct measured_set *set;
+    const struct twin *twins;
+    struct differences differences;
+    const struct tally *warnings; /* of the twins */
+};
+
+/* p-values below this are called small. */
+static const double SMALL = 0.05;
+
+/* Of fewer impacts no order of the values has a p-value that is small: the least of n and n is 2
+ * n! n! / (2 n)!, 1/10 of three and 1/35 of four. */
+enum { LEAST_IMPACTS = 4 };
+
+static void print_distance(const char *name, const struct distance *distance, size_t impacts)
+{
+    if (impacts < LEAST_IMPACTS)
+        printf("  %-20s %.4g; %zu impact%s too few for a p-value: %d or more are needed\n", name,
+               distance->value, impacts, impacts == 1 ? " is" : "s are", LEAST_IMPACTS);
+    else
+        printf("  %-20s %.4g, p = %.3g%s\n", name, distance->value, distance->p,
+               distance->p < SMALL ? ": the distributions differ" : "");
+}
+
+/* A single impact has no deviation. */
+static void print_moments(const char *name, double mean, double deviation)
+{
+    printf("  %-20s mean %.4f, ", name, mean);
+    if (isnan(deviation))
+        puts("of a single impact");
+    else
+        printf("standard deviation %.4f\n", deviation);
+}
+
+static void compare_print_table(const struct comparison *comparison)
+{
+    printf("%6s %10s %12s %12s %10s %9s %9s\n", "impact", "speed m/s", "measured e", "simulated e",
+           "residual", "measured", "simulated");
+    printf("%54s %19s\n", "", "sub-impacts");
+    /* impact by impact */
+    for (size_t i = 0; i < comparison->set->count; i++) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        char count[16] = "-";
+        if (!isnan(measured->sub_impacts))
+            snprintf(count, sizeof count, "%.0f", measured->sub_impacts);
+        printf("%6zu %10.5g %12.4f %12.4f %10.4f %9s %9.0f\n", i + 1, measured->speed,
+               measured->restitution, twin->restitution, twin->restitution - measured->restitution,
+               count, twin->sub_impacts);
+    }
+    /* over all of them */
+    printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
+           comparison->set->count);
+    const struct differences *differences = &comparison->differences;
+    print_moments("measured e", differences->measured_mean, differences->measured_deviation);
+    print_moments("simulated e", differences->simulated_mean, differences->simulated_deviation);
+    printf("  %-20s mean %.4f", "residual", differences->residual_mean);
+    if (!isnan(differences->residual_half_width))
+        printf(" +- %.4f (95 %%)", differences->residual_half_width);
+    printf(", root mean square %.4f\n", differences->residual_rms);
+    print_distance("Kolmogorov-Smirnov", &differences->kolmogorov, comparison->set->count);
+    print_distance("energy distance", &differences->energy, comparison->set->count);
+    if (differences->counted > 0)
+        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts", differences->counts_equal,
+               differences->counted);
+}
+
+static void print_csv_of(const struct measured_impact *impact)
+{
+    printf(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", impact->restitution, impact->impulse,
+           impact->sub_impacts, impact->first_impulse, impact->first_duration,
+           impact->second_start);
+}
+
+static void compare_print_csv(const struct comparison *comparison, bool units)
+{
+    csv_head(
+        stdout,
+        "speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
+        "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
+        "simulated_first_duration,simulated_second_start,residual",
+        units);
+    putchar('\n');
+    for (size_t i = 0; i < comparison->set->count; i++) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        printf("%.17g,%.17g", measured->speed, measured->at);
+        print_csv_of(measured);
+        print_csv_of(twin);
+        printf(",%.17g\n", twin->restitution - measured->restitution);
+    }
+}
+
+static json_t *impact_to_json(const struct measured_impact *impact)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "restitution", json_number(impact->restitution));
+    json_object_set_new(object, "impulse", json_number(impact->impulse));
+    json_object_set_new(object, "sub_impacts", json_number(impact->sub_impacts));
+    json_object_set_new(object, "first_impulse", json_number(impact->first_impulse));
+    json_object_set_new(object, "first_duration", json_number(impact->first_duration));
+    json_object_set_new(object, "second_start", json_number(impact->second_start));
+    return object;
+}
+
+static json_t *moments_to_json(double mean, double deviation)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "mean", json_number(mean));
+    json_object_set_new(object, "standard_deviation", json_number(deviation));
+    return object;
+}
+
+static json_t *distance_to_json(const struct distance *distance)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "value", json_number(distance->value));
+    json_object_set_new(object, "p", json_number(distance->p));
+    return object;
+}
+
+static void compare_print_json(const struct comparison *comparison)
+{
+    json_t *root = json_object(), *array = json_array(), *residual = json_object();
+    /* impact by impact */
+    for (size_t i = 0; i < comparison->set->count; i++) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct twin *twin = &comparison->twins[i];
+        json_t *object = json_object();
+        json_object_set_new(object, "speed", json_number(measured->speed));
+        json_object_set_new(object, "at", json_number(measured->at));
+        json_object_set_new(object, "measured", impact_to_json(measured));
+        json_object_set_new(object, "simulated", impact_to_json(&twin->impact));
+        json_object_set_new(object, "status", json_string(percuss_status_name(twin->status)));
+        json_object_set_new(object, "residual",
+                            json_number(twin->impact.restitution - measured->restitution));
+        json_array_append_new(array, object);
+    }
+    /* over all of them */
+    json_object_set_new(residual, "mean", json_number(comparison->differences.residual_mean));
+    json_object_set_new(residual, "half_width",
+                        json_number(comparison->differences.residual_half_width));
+    json_object_set_new(residual, "root_mean_square",
+                        json_number(comparison->differences.residual_rms));
+    json_object_set_new(root, "measured",
+                        moments_to_json(comparison->differences.measured_mean,
+                                        comparison->differences.measured_deviation));
+    json_object_set_new(root, "simulated",
+                        moments_to_json(comparison->differences.simulated_mean,
+                                        comparison->differences.simulated_deviation));
+    json_object_set_new(root, "residual", residual);
+    json_object_set_new(root, "kolmogorov_smirnov",
+                        distance_to_json(&comparison->differences.kolmogorov));
+    json_object_set_new(root, "energy_distance", distance_to_json(&comparison->differences.energy));
+    json_object_set_new(root, "sub_impacts_known",
+                        json_integer((json_int_t)comparison->differences.counted));
+    json_object_set_new(root, "sub_impacts_equal",
+                        json_integer((json_int_t)comparison->differences.counts_equal));
+    json_object_set_new(root, "impacts", array);
+    json_object_set_new(root, "left_out", measured_file_left_to_json(comparison->set));
+    json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));
+    json_print(root);
+}
+
+/* The picture of a comparison. */
+
+/* The paper's areas A to D: half, one, one and a half and two deviations about the mean. */
+enum { AREAS = 4 };
+static const char *const colours[AREAS] = {"#c4c4c4", "#d2d2d2", "#e0e0e0", "#ececec"};
+
+/* The part of the axis of speeds that is left free at either end. */
+static const double MARGIN = 0.03;
+
+static void write_impacts(struct plot *plot, const struct comparison *comparison)
+{
+    plot_table(plot, "impacts",
+               "speed,restitution,simulated_restitution,share,sub_impacts,simulated_sub_impacts");
+    for (size_t i = 0; i < comparison->set->count; i++) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        fprintf(plot->data, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", measured->speed,
+                measured->restitution, twin->restitution, 1.0 / (double)comparison->set->count,
+                measured->sub_impacts, twin->sub_impacts);
+    }
+}
+
+/* The ranges of the axes. */
+struct axes {
+    struct plot_range speed, restitution, areas, count;
+};
+
+static struct axes take_axes(const struct comparison *comparison)
+{
+    struct axes axes = {PLOT_NOTHING, PLOT_NOTHING, PLOT_NOTHING, {0.0, 1.0}};
+    for (size_t i = 0; i < comparison->set->count; i++) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        plot_range_take(&axes.speed, measured->speed);
+        plot_range_take(&axes.restitution, measured->restitution);
+        plot_range_take(&axes.restitution, twin->restitution);
+        plot_range_take(&axes.count, measured->sub_impacts);
+        plot_range_take(&axes.count, twin->sub_impacts);
+    }
+    /* areas may reach where no restitution is: below 0 */
+    double wide = 0.5 * AREAS * comparison->differences.measured_deviation;
+    axes.areas = axes.restitution;
+    plot_range_take(&axes.areas, comparison->differences.measured_mean - wide);
+    plot_range_take(&axes.areas, comparison->differences.measured_mean + wide);
+    plot_range_take(&axes.areas, 0.0);
+    axes.count.high += 0.5;
+    return axes;
+}
+
+/* The areas with their letters on their right, at both of their ends, and the mean. */
+static void write_areas(const struct plot *plot, const struct comparison *comparison)
+{
+    double mean = comparison->differences.measured_mean,
+           deviation = comparison->differences.measured_deviation;
+    if (!(deviation > 0.0))
+        return;
+    for (int area = AREAS; area-- > 0;) {
+        double half = 0.5 * (area + 1) * deviation, letter = half - 0.25 * deviation;
+        fprintf(plot->script,
+                "set object rectangle from graph 0, first %.9g to graph 1, first %.9g "
+                "fc rgb '%s' fs solid noborder behind\n"
+                "set label '%c' at graph 1.012, first %.9g tc rgb '#606060'\n"
+                "set label '%c' at graph 1.012, first %.9g tc rgb '#606060'\n",
+                mean - half, mean + half, colours[area], 'A' + area, mean + letter, 'A' + area,
+                mean - letter);
+    }
+    fprintf(plot->script,
+            "set arrow from graph 0, first %.9g to graph 1, first %.9g nohead lc rgb '#808080'\n",
+            mean, mean);
+}
+
+static void write_restitution(const struct plot *plot, const struct comparison *comparison,
+                              const struct axes *axes)
+{
+    fputs("set origin 0,0.56\nset size 1,0.41\nset xlabel 'speed / (m/s)'\n"
+          "set ylabel 'restitution e'\n",
+          plot->script);
+    plot_range_set(plot, "xrange", &axes->speed, MARGIN);
+    plot_range_set(plot, "yrange", &axes->areas, 0.04);
+    write_areas(plot, comparison);
+    fputs("plot @impacts using 1:2:(0):($3-$2) with vectors nohead lc rgb '#909090' lw 1 notitle, "
+          "'' using 1:2 with points lt 2 title 'measured', "
+          "'' using 1:3 with points lt 1 title 'simulated'",
+          plot->script);
+    if (comparison->differences.measured_deviation > 0.0)
+        fputs(", keyentry with lines lc rgb '#808080' lw 1 title 'mean of the measured', "
+              "keyentry with boxes fs solid noborder lc rgb '#d2d2d2' "
+              "title 'A to D: ± 0.5, 1, 1.5, 2 σ'",
+              plot->script);
+    fputs("\nunset object\nunset label\nunset arrow\n", plot->script);
+}
+
+static void write_counts(const struct plot *plot, const struct axes *axes)
+{
+    fputs("set origin 0,0.29\nset size 1,0.27\nset ytics 1\nset ylabel 'sub-impacts'\n",
+          plot->script);
+    plot_range_set(plot, "yrange", &axes->count, 0.0);
+    fputs("plot @impacts using 1:5 with points lt 2 title 'measured', "
+          "'' using 1:6 with points lt 1 pt 6 ps 1.4 title 'simulated'\nset ytics autofreq\n",
+          plot->script);
+}
+
+static void write_distributions(const struct plot *plot, const struct axes *axes)
+{
+    fputs("set origin 0,0.01\nset size 1,0.28\nset xlabel 'restitution e'\n"
+          "set ylabel 'share of impacts below'\nset yrange [0:1.02]\n",
+          plot->script);
+    plot_range_set(plot, "xrange", &axes->restitution, MARGIN);
+    fputs("plot @impacts using 2:4 smooth cumulative with steps lt 2 title 'measured', "
+          "'' using 3:4 smooth cumulative with steps lt 1 title 'simulated'\n",
+          plot->script);
+}
+
+/* The restitution and the number of sub-impacts against the speed, and both empirical
+ * distributions. Exit code; complains. */
+static int compare_plot(const struct plot_output *output, const struct comparison *comparison)
+{
+    struct plot plot;
+    char title[600];
+    int code = plot_begin(&plot, output, 1000, 1200);
+    if (code != EXIT_ANSWERED)
+        return code;
+    write_impacts(&plot, comparison);
+    snprintf(title, sizeof title, "%s: %zu impacts", comparison->title, comparison->set->count);
+    fputs("set multiplot title ", plot.script);
+    plot_text(&plot, title);
+    fputs("\nset lmargin 10\nset rmargin 4\n", plot.script);
+    /* restitution over speed, joined to its twin, on areas of the measured deviation; how many
+     * sub-impacts; both distributions */
+    const struct axes axes = take_axes(comparison);
+    write_restitution(&plot, comparison, &axes);
+    write_counts(&plot, &axes);
+    write_distributions(&plot, &axes);
+    fputs("unset multiplot\n", plot.script);
+    return plot_end(&plot);
+}
 
 enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED };
 enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
