@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "respond/log_choice.h"
+#include "respond/settings.h"
 
 enum {
     LOG_RATE_LINES = 20,   /* of a kind that are written in a period */
