@@ -117,7 +117,7 @@ static void requests_have_ranges(void **state)
     const json_t *gap = find(schema, "contacts", "gap");
     assert_true(json_real_value(at(gap, "minimum")) == -json_real_value(at(gap, "maximum")));
     assert_string_equal(json_string_value(at(find(schema, "bodies", "elapsed"), "description")),
-                        "s; since that state");
+                        "s; since that state, which is that at `window` of its reply");
     const json_t *horizon = at(find(schema, "options", "horizon"), "anyOf");
     assert_int_equal(json_integer_value(at(json_array_get(horizon, 0), "const")), 0);
     assert_true(json_real_value(at(json_array_get(horizon, 1), "maximum")) == 10.0);
