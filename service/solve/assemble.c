@@ -246,9 +246,11 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
                      const struct mode_choice *choice)
 {
     size_t fixed = add->problem->bodies[add->body]->modes;
-    size_t count = fixed ? fixed
-                         : mode_choice_count(choice, add->problem, rigid, add->body, add->family,
-                                             add->compliance);
+    size_t count = fixed;
+    if (!fixed || choice->unfixed)
+        count =
+            mode_choice_count(choice, add->problem, rigid, add->body, add->family, add->compliance);
+    count = count > fixed ? count : fixed;
     size_t allowed = add->problem->compliance.most;
     if (body_is_solid(add->problem->bodies[add->body]) && allowed > 0 && count > allowed)
         count = allowed;

@@ -17,7 +17,8 @@ enum { MODE_CHOICE_MOST = 5000 };
 struct mode_choice {
     double cut; /* rad/s */
     double allowed;
-    size_t most; /* at most MODE_CHOICE_MOST */
+    size_t most;  /* at most MODE_CHOICE_MOST */
+    bool unfixed; /* a number that the catalogue fixes is the least, not the one */
 };
 
 /* The number of modes of a loaded family of a body; `scene` needs no groups yet. More than

@@ -21,12 +21,8 @@ static const double LEAST_REBOUND = 0.1;
  * contact, and a beam, whose later sub-impacts amplify it five- to twentyfold as a rule. */
 static const double FIRST_SINGLE = 0.2;
 static const double FIRST_SEQUENCE = 0.02;
-/* The most that it may have: with fewer modes they do not follow the force slowly, and the next
- * better model says little of what they all do, of a contact in a group that hardly approaches
- * least. */
+/* The most that it may have of a single blow, see SEQUENCE_MOST. */
 static const double MOST_SINGLE = 4e-4;
-static const double MOST_SEQUENCE = 1e-4;
-static const double MOST_GROUP = 2e-5;
 /* True error over `slow_effect`: below 2 for 98 of 100 random scenes (docs/accuracy.md). */
 static const double SINGLE_FACTOR = 2.5;
 
@@ -68,7 +64,9 @@ static enum percuss_status estimate(struct attempt_context *context, struct atte
         return sequence_compare(context, best, error);
     error->restitution *= SINGLE_FACTOR;
     error->impulse *= SINGLE_FACTOR;
-    return PERCUSS_OK;
+    return slow.restitution > MOST_SINGLE && !spent && !exact
+               ? sequence_compare_unfixed(context, best, error)
+               : PERCUSS_OK;
 }
 
 bool mode_search_expects_sequence(const struct problem *problem)
@@ -93,7 +91,8 @@ static double first_allowed(const struct attempt_context *context, bool sequence
     if (!sequence)
         return fmin(FIRST_SINGLE * context->problem->tolerance, MOST_SINGLE);
     bool group = context->problem->contact_count > 1;
-    return fmin(FIRST_SEQUENCE * context->problem->tolerance, group ? MOST_GROUP : MOST_SEQUENCE);
+    return fmin(FIRST_SEQUENCE * context->problem->tolerance,
+                group ? SEQUENCE_MOST_GROUP : SEQUENCE_MOST);
 }
 
 /* Whether another attempt can be better, and is affordable. */

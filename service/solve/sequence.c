@@ -80,6 +80,43 @@ static enum percuss_status compare_fewer_modes(struct attempt_context *context,
     return status;
 }
 
+/* Where the catalogue fixes numbers of modes, with as many as leave out a tenth of `slow`, which is
+ * what the answer leaves out, or as few as the tolerance asks for; not by CVODE, whose effort goes
+ * with the highest frequency. *more: that they are. */
+static enum percuss_status unfix(struct attempt_context *context, const struct attempt *best,
+                                 double slow, struct attempt *unfixed, bool *more)
+{
+    const struct problem *problem = context->problem;
+    bool fixed = false;
+    *unfixed = *best;
+    *more = false;
+    for (size_t b = 0; b < problem->body_count; b++)
+        fixed = fixed || problem->bodies[b]->modes > 0;
+    if (!fixed || problem->request->options.method == PERCUSS_METHOD_CVODE)
+        return PERCUSS_OK;
+    double most = problem->contact_count > 1 ? SEQUENCE_MOST_GROUP : SEQUENCE_MOST;
+    unfixed->choice.unfixed = true;
+    unfixed->choice.allowed = fmax(unfixed->choice.allowed, fmin(slow / FEWER, most));
+    enum percuss_status status = attempt_assemble(context, unfixed);
+    *more = !status && !assembly_same_modes(unfixed->assembly, best->assembly);
+    return status;
+}
+
+enum percuss_status sequence_compare_unfixed(struct attempt_context *context, struct attempt *best,
+                                             struct mode_error *error)
+{
+    struct attempt unfixed;
+    bool more;
+    enum percuss_status status = unfix(context, best, error->restitution, &unfixed, &more);
+    if (status || !more)
+        return status;
+    status = solve_beside(context, best, &unfixed.assembly->scene, &unfixed, error);
+    if (!status && !error->unchecked)
+        widen(error, SEQUENCE_FACTOR,
+              outcome_compare(context->problem, &best->outcome, &unfixed.outcome));
+    return status;
+}
+
 /* Two solutions with longer steps may agree by chance: the better model with the answer's own, and
  * for a long sequence one more. */
 static enum percuss_status compare_again(struct attempt_context *context, struct attempt *best,
@@ -222,15 +259,19 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
 {
     const struct mode_error slow = *error;
     bool first = context->nearby->solutions == 1;
-    bool known;
-    enum percuss_status status = by_first_order(context, best, error, &known);
+    bool known = false;
+    bool more;
+    struct attempt unfixed;
+    enum percuss_status status = unfix(context, best, error->restitution, &unfixed, &more);
+    if (!status && !more)
+        status = by_first_order(context, best, error, &known);
     if (status || known)
         return status;
     /* a better model with longer steps */
     struct attempt both = *best;
-    struct scene better;
+    struct scene better = unfixed.assembly->scene;
     both.accuracy *= ATTEMPT_LONGER;
-    if (!assemble_remainder(best->assembly, context->problem, &better))
+    if (!more && !assemble_remainder(best->assembly, context->problem, &better))
         return PERCUSS_INTERNAL;
     status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)
