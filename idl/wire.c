@@ -3,9 +3,13 @@
 
 #include "wire.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "wire_loopback.h"
 #include "wire_security.h"
@@ -18,6 +22,49 @@ static dds_return_t create_domain(uint32_t domain)
     dds_entity_t created = wire_loopback_create(domain);
     pthread_mutex_unlock(&one_at_a_time);
     return created == DDS_RETCODE_PRECONDITION_NOT_MET || created > 0 ? DDS_RETCODE_OK : created;
+}
+
+/* DDS crashes or aborts without these: descriptors of its sockets, of what wakes its threads and of
+ * the check of its sockets; address space for the threads' stacks and 16 MiB. */
+enum { DESCRIPTORS = 8, THREADS = 8 };
+static const unsigned long long MEMORY = 16 << 20;
+
+/* By taking them for a moment. */
+static bool has_descriptors(void)
+{
+    int held[DESCRIPTORS], count = 0;
+    while (count < DESCRIPTORS && (held[count] = open("/", O_PATH | O_CLOEXEC)) >= 0)
+        count++;
+    bool enough = count == DESCRIPTORS || errno != EMFILE;
+    while (count > 0)
+        close(held[--count]);
+    return enough;
+}
+
+static unsigned long long needed_bytes(void)
+{
+    pthread_attr_t attributes;
+    size_t stack = 8 << 20;
+    if (pthread_attr_init(&attributes) == 0) {
+        pthread_attr_getstacksize(&attributes, &stack);
+        pthread_attr_destroy(&attributes);
+    }
+    return MEMORY + (unsigned long long)THREADS * stack;
+}
+
+/* Where nothing says how much the process has it is taken to suffice. */
+static bool has_address_space(void)
+{
+    struct rlimit limit;
+    unsigned long long pages = 0;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return true;
+    FILE *file = fopen("/proc/self/statm", "re");
+    if (!file || fscanf(file, "%llu", &pages) != 1)
+        pages = 0;
+    if (file)
+        fclose(file);
+    return pages * (unsigned long long)sysconf(_SC_PAGESIZE) + needed_bytes() <= limit.rlim_cur;
 }
 
 bool wire_is_configured(void)
@@ -33,6 +80,10 @@ dds_entity_t wire_participant_create(uint32_t domain)
 
 dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security)
 {
+    if (!has_descriptors())
+        return WIRE_NO_DESCRIPTORS;
+    if (!has_address_space())
+        return WIRE_NO_ADDRESS_SPACE;
     dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain);
     if (made < 0)
         return made;
@@ -53,6 +104,20 @@ const char *wire_participant_problem(dds_return_t code)
                "are needed for it, or a configuration in CYCLONEDDS_URI";
     if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
         return "its certificate or its permissions are not good, or do not belong together";
+    if (code == WIRE_NO_DESCRIPTORS || code == WIRE_NO_ADDRESS_SPACE) {
+        static _Thread_local char text[160];
+        if (code == WIRE_NO_DESCRIPTORS)
+            snprintf(text, sizeof text,
+                     "fewer than %d file descriptors are left, which DDS needs: ulimit -n must be "
+                     "higher",
+                     DESCRIPTORS);
+        else
+            snprintf(text, sizeof text,
+                     "less than %llu KiB of address space are left, which the threads of DDS need: "
+                     "ulimit -v must be higher",
+                     needed_bytes() / 1024);
+        return text;
+    }
     return dds_strretcode(-code);
 }
 

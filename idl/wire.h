@@ -26,6 +26,10 @@
 
 enum { WIRE_WINDOW = 1024 };
 
+/* Codes of a participant besides those of DDS: what it needs is checked first, as it would end the
+ * process. */
+enum { WIRE_NO_DESCRIPTORS = -9001, WIRE_NO_ADDRESS_SPACE = -9002 };
+
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
  * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),
  * unless the process has the domain already. Returns the entity or a negative DDS return code,
@@ -39,7 +43,7 @@ dds_entity_t wire_participant_create_secured(uint32_t domain, const char *securi
 /* Whether CYCLONEDDS_URI configures the network, so that other machines may be heard. */
 bool wire_is_configured(void);
 
-/* What such a code means, in words. */
+/* What such a code means, in words that last until the thread asks again. */
 const char *wire_participant_problem(dds_return_t code);
 
 /* A topic whose readers drop every sample that is not a whole one of its type (wire_whole.h) before

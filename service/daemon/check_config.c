@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "catalogue/catalogue.h"
+#include "daemon/limits.h"
 #include "endpoint/endpoint.h"
 #include "model/body_kind.h"
 #include "model/describe.h"
@@ -223,6 +224,16 @@ static bool check_domain(const struct settings *settings)
     return participant > 0;
 }
 
+/* DDS is not tried where it would end the process. */
+static bool check_limits(const struct settings *settings)
+{
+    struct fault fault;
+    if (!limits_check(settings, &fault))
+        return true;
+    fprintf(stderr, "percussd: %s\n", fault.text);
+    return false;
+}
+
 bool check_config(const struct settings *settings)
 {
     bool (*const checks[])(const struct settings *) = {check_catalogue, check_tables, check_bodies,
@@ -230,7 +241,7 @@ bool check_config(const struct settings *settings)
     bool good = true;
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;
-    good = check_security(settings) && check_domain(settings) && good;
+    good = check_security(settings) && check_limits(settings) && check_domain(settings) && good;
     remark_file("metrics", settings->metrics);
     remark_file("backup", settings->backup);
     if (good)

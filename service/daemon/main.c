@@ -11,6 +11,7 @@
 
 #include "daemon/arguments.h"
 #include "daemon/check_config.h"
+#include "daemon/limits.h"
 #include "daemon/log.h"
 #include "daemon/notify.h"
 #include "daemon/service.h"
@@ -184,7 +185,8 @@ int main(int argc, char **argv)
     /* a store alone, or the settings, which may be all that is to be looked at */
     if (arguments.check_store)
         return store_care_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
-    if (gather_settings(&arguments, &settings, &fault)) {
+    if (gather_settings(&arguments, &settings, &fault) ||
+        (!arguments.check_config && limits_check(&settings, &fault))) {
         fprintf(stderr, "percussd: %s\n", fault.text);
         free(arguments.shipped);
         return EXIT_FAILURE;
@@ -193,6 +195,7 @@ int main(int argc, char **argv)
         log_limit(settings.log_level);
         log_use(settings.log_format);
         log_limit_rate();
+        limits_fit(&settings);
     }
     name_settings(&arguments, arguments.check_config);
     if (arguments.check_config)
@@ -207,23 +210,22 @@ int main(int argc, char **argv)
                                  : STANDBY_TAKEN;
     if (place == STANDBY_STOPPED)
         return EXIT_SUCCESS;
-    struct service *service =
-        place == STANDBY_TAKEN
-            ? service_create(&settings, settings.standby[0] ? server : NULL, &fault)
-            : NULL;
+    struct service *service = NULL;
+    if (place == STANDBY_TAKEN)
+        service = service_create(&settings, settings.standby[0] ? server : NULL, &fault);
     if (!service) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return EXIT_FAILURE;
     }
     /* until a signal, and then what is still queued */
     serve(service, &signals, &notifier, settings.standby);
-    bool drained = drain(service, &signals, settings.drain_seconds, &notifier);
-    log_sum_up(true);
-    if (!drained) {
+    if (!drain(service, &signals, settings.drain_seconds, &notifier)) {
         /* a thread still works, so nothing is taken apart */
+        log_sum_up(true);
         log_line(LEVEL_ERROR, "ends with requests unanswered");
         _exit(EXIT_FAILURE);
     }
+    log_sum_up(true);
     if (!is_taken_apart(service)) {
         log_line(LEVEL_ERROR,
                  "DDS does not end within %g s (has this machine lost its address?): "
@@ -232,7 +234,6 @@ int main(int argc, char **argv)
         _exit(EXIT_FAILURE);
     }
     notifier_close(&notifier);
-    log_sum_up(true);
     log_line(LEVEL_INFO, "ended");
     return EXIT_SUCCESS;
 }

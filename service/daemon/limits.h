@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The limits that the system sets to this process: what the daemon needs is checked before DDS
+ * starts, which ends the process where it lacks a descriptor or memory. */
+#ifndef PERCUSS_DAEMON_LIMITS_H
+#define PERCUSS_DAEMON_LIMITS_H
+
+#include "base/fault.h"
+#include "respond/settings.h"
+
+/* PERCUSS_BAD_REQUEST with the limit, its value and the number that is needed. A soft limit of
+ * descriptors is raised as far as the hard one allows. */
+enum percuss_status limits_check(const struct settings *settings, struct fault *fault);
+
+/* Has the caches of states and replies, and the allocator, keep to the memory that the control
+ * group and the process may have, and logs that. Before there are threads. */
+void limits_fit(struct settings *settings);
+
+/* Bytes that a control group's memory.max (of version 1: memory.limit_in_bytes) allows, or those of
+ * a group above it; 0: no limit is known. `root` is where control groups are mounted,
+ * `membership` a file as /proc/self/cgroup. */
+unsigned long long limits_cgroup(const char *root, const char *membership);
+
+/* KiB of address space that a daemon of these settings needs, with threads of so large a stack. */
+unsigned long long limits_address_space(const struct settings *settings, size_t stack);
+
+/* The caches' megabytes with so many bytes of memory and of address space (0: no limit). True: they
+ * are fewer than the settings say. */
+bool limits_fit_caches(struct settings *settings, unsigned long long memory,
+                       unsigned long long address_space);
+
+#endif
