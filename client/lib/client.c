@@ -16,6 +16,7 @@
 
 #include "error.h"
 #include "failure.h"
+#include "forked.h"
 #include "library.h"
 #include "wire_security.h"
 
@@ -389,6 +390,8 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
         result = check_partition(among);
     if (result == PERCUSS_RESULT_OK)
         result = check_security(identity);
+    if (result == PERCUSS_RESULT_OK)
+        result = forked_check();
     if (result != PERCUSS_RESULT_OK)
         return result;
     struct percuss_client *created = calloc(1, sizeof *created);
@@ -396,6 +399,7 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
     created->operations = &LIBRARY_OPERATIONS;
     create_lock(created);
+    forked_add(&created->forked, &created->operations);
     created->domain = chosen.domain;
     created->secured = identity != NULL;
     /* as DDS, which reads it once, too */
@@ -425,6 +429,7 @@ void client_free(struct percuss_client *client)
 {
     if (!client)
         return;
+    forked_remove(&client->forked);
     delete_entities(client);
     pending_clear(&client->pending);
     for (int i = 0; i < CLIENT_TAKE_AT_ONCE; i++)

@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "forked.h"
 #include "operations.h"
 #include "pending.h"
 #include "watching.h"
@@ -77,7 +78,8 @@ struct percuss_client {
     dds_entity_t endpoints[CLIENT_MOST_ENDPOINTS]; /* all of them, to be deleted */
     size_t endpoint_count;
     struct watching watching;
-    int announcement_room; /* of the largest read so far, see announcements.c */
+    struct forked_entry forked; /* among all of the process */
+    int announcement_room;      /* of the largest read so far, see announcements.c */
 };
 
 /* NO_SERVER, in words, where its identity has ended since it was made: it must not create anything

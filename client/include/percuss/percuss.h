@@ -18,6 +18,10 @@
  * The library starts no thread of its own besides those of Cyclone DDS and installs no signal
  * handler. Without CYCLONEDDS_URI in the environment it talks to this machine only.
  *
+ * In the child of a fork() by a process that has made a client, every call with a client and
+ * percuss_client_create give TRANSPORT, and percuss_client_free frees: the threads of Cyclone DDS
+ * are in the parent only. Children make their clients where the parent has made none.
+ *
  * A program that loaded the library with dlopen may dlclose it when its clients are freed; code and
  * threads of DDS stay. */
 #ifndef PERCUSS_PERCUSS_H
