@@ -30,7 +30,7 @@
 enum { SAMPLES = 512 };
 
 /* The spread of the restitution by a standard deviation of the speed: asks for a small ensemble
- * around the impact, whose contact 0 approaches at `speed`. */
+ * around the impact; its contact 0 approaches at `speed`. */
 static enum percuss_result spread_ask(struct percuss_client *client,
                                       const struct percuss_request *request, double speed,
                                       double deviation, double timeout,

@@ -551,7 +551,7 @@ static int judge(const struct sweep_run *run)
     return worst;
 }
 
-/* Goes on with a file, whose last row must be the answer to the question that is asked here. */
+/* Goes on with a file; its last row must be the answer to the question that is asked here. */
 static int open_file(struct work *work)
 {
     const struct sweep *sweep = work->sweep;

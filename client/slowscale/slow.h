@@ -43,7 +43,7 @@ struct entry {
 struct episode {
     struct episode *next;
     double time;   /* s: of the impact */
-    double window; /* s from then: the fast scale's, at whose end the tokens hold */
+    double window; /* s from then: the fast scale's; the tokens hold at its end */
     bool revocable;
     bool revoked;                   /* until its successor is known */
     struct percuss_request request; /* delassus is its own */
