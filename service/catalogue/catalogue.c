@@ -519,6 +519,8 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_text(hash, "yield: none");
     if (body->mesh)
         hash_mesh(hash, body);
+    else if (body->rigid)
+        hash_text(hash, "rigid");
 }
 
 static int by_id(const void *a, const void *b)

@@ -278,6 +278,8 @@ static void changes_its_revision_with_the_content(void **state)
         "  r: {shape: rod, material: m, radius: 0.01, length: 1, ends: [fixed, free]}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 1, damping: 0.01}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 1, modes: 7}\n",
+        "  r: {shape: block, material: m, size: [1, 1, 1]}\n",
+        "  r: {shape: block, material: m, size: [1, 1, 1], rigid: true}\n",
         "  r: {shape: beam, material: m, radius: 0.01, length: 1}\n",
         "  r: {shape: beam, material: m, radius: 0.01, length: 1, theory: euler-bernoulli}\n",
         "  r: {shape: beam, material: m, radius: 0.01, length: 1, shear_factor: 0.9}\n",
