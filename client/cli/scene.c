@@ -338,7 +338,9 @@ static void describe_body(const struct percuss_body *body, char *text, size_t si
     /* percuss-reduce was given numbers without a name */
     if (body->material[0] && strcmp(body->material, "given") != 0)
         add(text, size, " of %s", body->material);
-    if (!strcmp(body->shape, "beam") || !strcmp(body->shape, "rod"))
+    bool held =
+        body->supports[0] != PERCUSS_SUPPORT_FREE || body->supports[1] != PERCUSS_SUPPORT_FREE;
+    if (held || !strcmp(body->shape, "beam") || !strcmp(body->shape, "rod"))
         add(text, size, ", ends %s and %s", support_name(body->supports[0]),
             support_name(body->supports[1]));
 }

@@ -69,7 +69,8 @@ double bar_cap_section(const struct body *body, const struct site *site)
 
 const char *bar_why_not(const struct body *body, const struct site *site)
 {
-    if (site->face == SITE_END && body->supports[site->point[0] > 0.0] != SUPPORT_FREE)
+    bool on_end = site->face == SITE_END || fabs(site->outward[0]) > 0.5;
+    if (on_end && body->supports[site->point[0] > 0.0] != SUPPORT_FREE)
         return "this end is held by a support: hit the free end or the side";
     return NULL;
 }

@@ -36,7 +36,7 @@ struct body {
     enum beam_theory theory;
     enum shear_rule shear_rule;
     double shear_number;          /* SHEAR_NUMBER: the factor */
-    enum support supports[2];     /* rod, beam: at x = -length/2, +length/2 */
+    enum support supports[2];     /* rod, beam, block: its ends at -x, +x */
     double damping;               /* modal damping ratio, [0, 1); of several the largest */
     double loss_factor;           /* of its material: what a cycle loses over 2 pi of what it
                                    * stores; NAN: not stated */

@@ -68,5 +68,6 @@ bool body_same_modes(const struct body *a, const struct body *b)
     return strcmp(a->id, b->id) == 0 && a->material.young == b->material.young &&
            a->material.poisson == b->material.poisson &&
            a->material.density == b->material.density && a->radius == b->radius &&
-           a->damping == b->damping && a->scale == b->scale;
+           a->damping == b->damping && a->scale == b->scale && a->supports[0] == b->supports[0] &&
+           a->supports[1] == b->supports[1];
 }

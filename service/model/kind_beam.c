@@ -39,8 +39,8 @@ static const struct key keys[] = {
      KEY_SAYS("radius or section stands instead", "twice the radius")},
     {"section", KEY_SECTION, .nested = &keys_section,
      KEY_SAYS("radius or diameter stands instead",
-              "a rectangular section; the vibration of a free beam more than 2.5 times as broad as "
-              "deep is a block's unless shear_factor is stated")},
+              "a rectangular section; the vibration of a beam more than 2.5 times as broad as deep "
+              "is a block's unless an end is pinned or shear_factor is stated")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
     {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,
@@ -165,28 +165,22 @@ static void shear_factors(struct body *body)
     }
 }
 
-static bool box(const struct body *body, struct ritz_shape *shape)
-{
-    *shape = (struct ritz_shape){.side = {body->size[0], body->size[1], body->size[2]}};
-    return ritz_reaches(shape);
-}
-
-/* A free strip bends across its breadth, too, as a block does: its vibration is a block's, unless a
- * theory of beams is asked for. */
+/* A strip bends across its breadth, too, as a block does: its vibration is a block's, unless a
+ * theory of beams is asked for. A block's end has no pin. */
 static void choose_kind(struct body *body)
 {
     double w = body->width, h = body->height;
     struct ritz_shape shape;
     bool broad = !is_round(body) && fmax(w, h) > BEAM_BROADEST * fmin(w, h);
-    bool held = body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE;
+    bool pinned = body->supports[0] == SUPPORT_PINNED || body->supports[1] == SUPPORT_PINNED;
     bool asked = body->theory != THEORY_TIMOSHENKO || body->shear_rule != SHEAR_ABSENT;
 
     body->kind = &beam_kind;
     memset(body->size, 0, sizeof body->size);
-    if (!broad || held || asked)
+    if (!broad || pinned || asked)
         return;
     memcpy(body->size, (const double[]){body->length, w, h}, sizeof body->size);
-    if (box(body, &shape))
+    if (mesh_family_box(body, &shape))
         body->kind = &strip_kind;
     else
         memset(body->size, 0, sizeof body->size);
@@ -331,7 +325,8 @@ static const struct body_kind strip_kind = {
     .complete = complete,
     .smallest_radius = smallest_radius,
     .faces = find_faces,
-    .box = box,
+    .why_not = bar_why_not,
+    .box = mesh_family_box,
     .families = strip_families,
     .family_count = sizeof strip_families / sizeof *strip_families,
     .load = mesh_family_load,

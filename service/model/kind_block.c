@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "model/bar.h"
 #include "model/body.h"
 #include "model/damping.h"
 #include "model/describe.h"
@@ -11,9 +12,18 @@
 #include "model/mesh_family.h"
 #include "model/ritz.h"
 
+static const char *const ends[] = {
+    [SUPPORT_FREE] = "free",
+    [SUPPORT_CLAMPED] = "clamped",
+};
 static const struct key keys[] = {
     {"size", KEY_NUMBERS, &limit_length, true, KEY_OF(body, size),
      KEY_SAYS(NULL, "its edges along x, y and z")},
+    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends),
+     .allowed = "one of free, clamped, or two of them, at -x and at +x: [clamped, free], also "
+                "written clamped-free or cantilever; the end of a block has no pin: clamp it, or "
+                "use a beam",
+     KEY_SAYS("free", "how its faces at -x and +x are held: nothing moves on a clamped one")},
     {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
      KEY_SAYS("half of its material's loss_factor; 0 where that states none",
               "damping ratio of every elastic mode")},
@@ -26,6 +36,28 @@ static const struct key keys[] = {
 };
 
 static const struct mode_family *const families[] = {&mesh_family};
+
+static bool is_held(const struct body *body)
+{
+    return body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE;
+}
+
+/* A held block moves by its vibration alone. */
+static enum percuss_status check(const struct body *body, struct fault *fault)
+{
+    struct ritz_shape shape;
+    if (!is_held(body))
+        return PERCUSS_OK;
+    if (body->rigid)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "rigid: true: must be false where an end is held: a held block moves by "
+                         "its vibration alone");
+    if (!mesh_family_box(body, &shape))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "ends: must be free where the block is thinner than 1/200 of its longest "
+                         "side: its vibration is not computed");
+    return PERCUSS_OK;
+}
 
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
@@ -50,12 +82,6 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return face_box(half, p, faces);
 }
 
-static bool box(const struct body *body, struct ritz_shape *shape)
-{
-    *shape = (struct ritz_shape){.side = {body->size[0], body->size[1], body->size[2]}};
-    return ritz_reaches(shape);
-}
-
 /* Hit on its faces along z. */
 static struct solid solid(const struct body *body)
 {
@@ -75,6 +101,9 @@ static void describe(const struct body *body, struct body_description *descripti
     describe_add(description, "%g m x %g m x %g m", size[0], size[1], size[2]);
     if (body->rigid)
         describe_add(description, "rigid");
+    if (is_held(body))
+        describe_add(description, "ends %s and %s", ends[body->supports[0]],
+                     ends[body->supports[1]]);
     damping_describe(body, description);
     if (body->modes > 0)
         describe_add(description, "%u modes taking part", body->modes);
@@ -84,11 +113,13 @@ const struct body_kind block_kind = {
     .name = "block",
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
+    .check = check,
     .complete = complete,
     .smallest_radius = smallest_radius,
     .faces = find_faces,
+    .why_not = bar_why_not,
     .solid = solid,
-    .box = box,
+    .box = mesh_family_box,
     .families = families,
     .family_count = sizeof families / sizeof *families,
     .load = mesh_family_load,

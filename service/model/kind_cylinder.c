@@ -49,7 +49,7 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
 static bool box(const struct body *body, struct ritz_shape *shape)
 {
     double diameter = 2.0 * body->radius;
-    *shape = (struct ritz_shape){{body->length, diameter, diameter}, true};
+    *shape = (struct ritz_shape){.side = {body->length, diameter, diameter}, .round = true};
     return ritz_reaches(shape);
 }
 

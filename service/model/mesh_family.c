@@ -70,6 +70,15 @@ const char *mesh_family_theory(const struct body *body)
     return "ritz";
 }
 
+bool mesh_family_box(const struct body *body, struct ritz_shape *shape)
+{
+    const double *size = body->size;
+    *shape = (struct ritz_shape){.side = {size[0], size[1], size[2]}};
+    for (int end = 0; end < 2; end++)
+        shape->held[end] = body->supports[end] == SUPPORT_CLAMPED;
+    return ritz_reaches(shape);
+}
+
 static size_t most(const struct body *body)
 {
     if (!body->ritz && !body->mesh) /* a box that stays rigid */
@@ -97,7 +106,10 @@ static void find(const struct body *body, struct modal_family *modes)
         modes->omega[k] = factor * omega[k];
     /* the next one: of the file, or no lower than its last */
     size_t next = modes->count < all ? modes->count : all - 1;
-    modes->omega[modes->count] = all > 0 ? factor * omega[next] : INFINITY;
+    if (all > 0)
+        modes->omega[modes->count] = factor * omega[next];
+    else
+        modes->omega[0] = body->ritz ? factor * ritz_highest(body->ritz) : INFINITY;
 }
 
 /* row += share shape, mode by mode: the same bits for any vector unit. */

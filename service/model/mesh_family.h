@@ -8,6 +8,7 @@
 
 #include "model/mode_family.h"
 
+struct ritz_shape;
 struct site;
 struct site_load;
 
@@ -18,6 +19,10 @@ extern const struct mode_family mesh_family;
 void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
                       struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
+
+/* The box of a body of three sides, its ends held as its supports say. False: beyond Ritz's reach.
+ */
+bool mesh_family_box(const struct body *body, struct ritz_shape *shape);
 
 /* What a body is of the one in its file: young, density and size over its own. */
 struct mesh_ratio {

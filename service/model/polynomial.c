@@ -16,6 +16,44 @@ void polynomial_legendre(size_t count, double x, double *value)
     }
 }
 
+/* The mean square of (1 - x)^(a/2) (1 + x)^(b/2) P_n is 2^(a+b)/(2 n + a + b + 1) times
+ * (n + a)! (n + b)!/(n! (n + a + b)!), which is 1 unless both ends are held. */
+static double held_norm(double n, double a, double b)
+{
+    double factorials = a * b > 0.0 ? (n + 1.0) * (n + 2.0) / ((n + 3.0) * (n + 4.0)) : 1.0;
+    return sqrt((2.0 * n + a + b + 1.0) / (pow(2.0, a + b) * factorials));
+}
+
+void polynomial_held(size_t count, const bool held[2], double x, double *value, double *slope)
+{
+    double a = held[1] ? 2.0 : 0.0, b = held[0] ? 2.0 : 0.0;
+    double factor = (held[1] ? 1.0 - x : 1.0) * (held[0] ? 1.0 + x : 1.0);
+    double steep =
+        (held[0] ? (held[1] ? 1.0 - x : 1.0) : 0.0) - (held[1] ? (held[0] ? 1.0 + x : 1.0) : 0.0);
+    double p = 1.0, before = 0.0, d = 0.0, d_before = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        double n = (double)k, norm = held_norm(n, a, b), next, d_next;
+        value[k] = norm * factor * p;
+        if (slope)
+            slope[k] = norm * (steep * p + factor * d);
+        /* Jacobi's recurrence, and its derivative */
+        double i = n + 1.0, c = 2.0 * i + a + b;
+        if (k == 0) {
+            next = (a + 1.0) + 0.5 * (a + b + 2.0) * (x - 1.0);
+            d_next = 0.5 * (a + b + 2.0);
+        } else {
+            double a1 = 2.0 * i * (i + a + b) * (c - 2.0), a2 = (c - 1.0) * (a * a - b * b);
+            double a3 = (c - 2.0) * (c - 1.0) * c, a4 = 2.0 * (i + a - 1.0) * (i + b - 1.0) * c;
+            next = ((a2 + a3 * x) * p - a4 * before) / a1;
+            d_next = ((a2 + a3 * x) * d + a3 * p - a4 * d_before) / a1;
+        }
+        before = p;
+        d_before = d;
+        p = next;
+        d = d_next;
+    }
+}
+
 void polynomial_zernike(size_t count, double y, double z, double *value, double *along_y,
                         double *along_z)
 {

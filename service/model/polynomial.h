@@ -5,6 +5,7 @@
 #ifndef PERCUSS_MODEL_POLYNOMIAL_H
 #define PERCUSS_MODEL_POLYNOMIAL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Most of a circle along y or z. */
@@ -12,6 +13,11 @@ enum { POLYNOMIAL_MOST = 40 };
 
 /* Legendre's, of mean square 1 over [-1, 1]. */
 void polynomial_legendre(size_t count, double x, double *value);
+
+/* Those that vanish at x = -1 (held[0]), at x = 1 (held[1]) or at both, of mean square 1 and
+ * orthogonal over [-1, 1]: (1 - x)^a (1 + x)^b P_n, a and b being 1 where it is held and 0
+ * elsewhere, P_n Jacobi's of (2 a, 2 b). With their derivatives unless that is NULL. */
+void polynomial_held(size_t count, const bool held[2], double x, double *value, double *slope);
 
 /* Zernike's of mean square 1 over the circle of radius 1, in the place of y^q z^r, q + r < count:
  * sqrt((2) (n + 1)) R_n^m(radius) cos(m angle) or sin, n = q + r; cosines where r is even, whose

@@ -1,11 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The vibration of a free elastic box or cylinder by Ritz's method in three dimensions:
+/* The vibration of an elastic box or cylinder by Ritz's method in three dimensions:
  * displacements are sums of products of Legendre polynomials in x, y and z, which are orthonormal
  * in the box, so that the mass matrix is the identity and the stiffness matrix a sum of products of
  * integrals in closed form (Leissa and Zhang, J. Acoust. Soc. Am. 73 (1983) 2013). Displacements
  * even and odd about the three planes of symmetry do not mix: eight classes.
+ *
+ * A box may be held on its faces across x: the polynomials in x vanish there (Jacobi's, see
+ * polynomial_held). With one face held there are four classes.
  *
  * Of a cylinder along x the polynomials in y and z are Zernike's, which are orthonormal in the
  * circle: harmonics of the angle times polynomials of the radius, with the same eight classes.
@@ -24,6 +27,7 @@ struct ritz;
 struct ritz_shape {
     double side[3];
     bool round;
+    bool held[2]; /* a box: nothing moves on its faces at -x, +x */
 };
 
 /* Names the side of a cylinder, whose normal is no axis. */
@@ -45,6 +49,9 @@ size_t ritz_size(const struct ritz *ritz);
 size_t ritz_mode_count(const struct ritz *ritz);
 const double *ritz_omega(const struct ritz *ritz);
 
+/* The frequency up to which it has them: there may be none. */
+double ritz_highest(const struct ritz *ritz);
+
 /* Displacements along `direction` at a point of the modes first, ... first + count - 1, for unit
  * coordinates; each computed by itself. */
 void ritz_shapes(const struct ritz *ritz, const double point[3], const double direction[3],
@@ -52,9 +59,9 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
 
 /* Static compliance to a force of 1 along the inward normal at a point of the face whose outward
  * normal is `side` (-1, 1) times the axis `axis`, beyond that of a half-space, the load being
- * balanced by the inertia of the rigid motions. Of a cylinder's own side, RITZ_ROUND, it is that of
- * a contact of the radius RITZ_CUT, and changes by ritz_slope with its logarithm. NAN: out of
- * memory. */
+ * balanced by the inertia of the rigid motions unless a face is held. Of a cylinder's own side,
+ * RITZ_ROUND, it is that of a contact of the radius RITZ_CUT, and changes by ritz_slope with its
+ * logarithm. NAN: out of memory. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3]);
 
 static const double RITZ_CUT = 0.02; /* diameters */
@@ -65,6 +72,7 @@ double ritz_slope(const struct ritz *ritz);
 struct ritz_unresolved {
     double lacks, doubt;
 };
-struct ritz_unresolved ritz_unresolved_at(const struct ritz *ritz, int axis, const double point[3]);
+struct ritz_unresolved ritz_unresolved_at(const struct ritz *ritz, int axis, int side,
+                                          const double point[3]);
 
 #endif

@@ -102,14 +102,19 @@ void ritz_store_free(struct ritz_store *store)
     free(store);
 }
 
+static bool same_shape(const struct ritz_shape *a, const struct ritz_shape *b)
+{
+    return a->round == b->round && a->held[0] == b->held[0] && a->held[1] == b->held[1] &&
+           memcmp(a->side, b->side, sizeof a->side) == 0;
+}
+
 /* With the store taken: removes the box of these proportions from the list; NULL: there is none. */
 static struct ritz_box *take_out(struct ritz_store *store, const struct ritz_shape *shape,
                                  double poisson)
 {
     for (struct ritz_box **link = &store->boxes; *link; link = &(*link)->next) {
         struct ritz_box *box = *link;
-        if (box->poisson != poisson || box->shape.round != shape->round ||
-            memcmp(box->shape.side, shape->side, sizeof shape->side) != 0)
+        if (box->poisson != poisson || !same_shape(&box->shape, shape))
             continue;
         *link = box->next;
         return box;

@@ -12,10 +12,10 @@ struct ritz_store;
 struct ritz_box; /* one of it: a vibration, and its flexibility at some places */
 
 /* A store that drops the oldest boxes that are not held once all take more than `bytes`. One takes
- * some 4 to 30 MB: in RITZ_STORE_BYTES the pilots of an ensemble of a varied size or Poisson's
- * ratio find theirs again. NULL: out of memory. */
+ * some 4 to 30 MB, a held one up to 110: in RITZ_STORE_BYTES the pilots of an ensemble of a varied
+ * size or Poisson's ratio find theirs again. NULL: out of memory. */
 struct ritz_store *ritz_store_create(size_t bytes);
-enum { RITZ_STORE_BYTES = 128 << 20 };
+enum { RITZ_STORE_BYTES = 256 << 20 };
 
 /* One more owner. The last owner's free ends the store; by then every box must be released. NULL is
  * allowed in both. */

@@ -334,8 +334,8 @@ static void find_breadth(const struct problem *problem, size_t c, struct warning
         if (broad > BEAM_BROADEST)
             warnings_add(warnings, WARNING_BREADTH + which,
                          "contacts[%zu]: the section of %s is %.3g times as broad as deep, and "
-                         "bends across its breadth as well, which a theory of beams leaves out: a "
-                         "free one without theory and shear_factor is computed as a block",
+                         "bends across its breadth as well, which a theory of beams leaves out: "
+                         "without theory, shear_factor and pinned ends it is computed as a block",
                          c, body->id, broad);
     }
 }

@@ -14,11 +14,12 @@ static const double KEPT = 0.1;
 /* And whatever the tolerance: the unknown compliance of a compact body does as much. */
 static const double LEAST_KEPT = 2e-5;
 
-/* Whether a body vibrates, or would. */
+/* Whether a body vibrates, or would. One that is held moves in no other way. */
 static bool matters(const struct problem *problem, size_t body)
 {
     const struct body_state *state = problem->states[body];
-    if ((state && state->count[0] > 0) || problem->bodies[body]->modes > 0)
+    const struct body *of = problem->bodies[body];
+    if ((state && state->count[0] > 0) || of->modes > 0 || of->supports[0] || of->supports[1])
         return true;
     double kept = fmax(KEPT * problem->tolerance, LEAST_KEPT);
     for (size_t c = 0; c < problem->contact_count; c++)
@@ -40,7 +41,8 @@ static bool lend_load(struct problem *problem, size_t c, int which)
     side->load = site_load_make(body, &side->site, side->direction);
     struct mesh_load *load = &side->load.family[0].mesh;
     double unit = mesh_ratio_flexibility(body);
-    struct ritz_unresolved unresolved = ritz_unresolved_at(body->ritz, load->axis, load->point);
+    struct ritz_unresolved unresolved =
+        ritz_unresolved_at(body->ritz, load->axis, load->side, load->point);
     double flexibility =
         prepared_ritz_flexibility(problem->cache, body->ritz, load->axis, load->side, load->point);
     load->flexibility = unit * (flexibility + unresolved.lacks);

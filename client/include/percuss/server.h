@@ -27,7 +27,7 @@ struct percuss_body {
     double half_extents[3];           /* half the size along the body's x, y, z, m; half-space: 0 */
     double radius;                    /* sphere, rod, round beam, cylinder, m; 0: none */
     double tip_radius;                /* of a rod's ends, m; INFINITY: flat; other shapes: 0 */
-    enum percuss_support supports[2]; /* rod, beam: at its ends at -x and +x */
+    enum percuss_support supports[2]; /* rod, beam, block: at its ends at -x and +x */
     double parameters[PERCUSS_PARAMETER_COUNT]; /* values that a request may override; NAN: it has
                                                    none; infinite yield: stays elastic */
     double inertia[3];  /* diagonal of the tensor about the centre of mass, kg m^2 */

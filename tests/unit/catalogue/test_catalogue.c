@@ -243,17 +243,22 @@ static void reads_ends_of_two_words(void **state)
         {"beam", "[clamped, free]", {SUPPORT_CLAMPED, SUPPORT_FREE}},
         {"rod", "cantilever", {SUPPORT_CLAMPED, SUPPORT_FREE}},
         {"rod", "free-fixed", {SUPPORT_FREE, SUPPORT_CLAMPED}},
+        {"block", "cantilever", {SUPPORT_CLAMPED, SUPPORT_FREE}},
+        {"block", "free-clamped", {SUPPORT_FREE, SUPPORT_CLAMPED}},
+        {"block", "clamped", {SUPPORT_CLAMPED, SUPPORT_CLAMPED}},
+        {"block", "[clamped, free]", {SUPPORT_CLAMPED, SUPPORT_FREE}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[512];
+        bool block = strcmp(cases[i].shape, "block") == 0;
         snprintf(text, sizeof text,
-                 BASE_MATERIAL "bodies:\n  b: {shape: %s, material: m, diameter: 20 mm, length: 1, "
-                               "ends: %s}\n",
-                 cases[i].shape, cases[i].word);
+                 BASE_MATERIAL "bodies:\n  b: {shape: %s, material: m, %s, ends: %s}\n",
+                 cases[i].shape, block ? "size: [20 mm, 0.1, 0.1]" : "diameter: 20 mm, length: 1",
+                 cases[i].word);
         struct body_set *set = parse_good(text);
         assert_int_equal(set->bodies[0].supports[0], cases[i].supports[0]);
         assert_int_equal(set->bodies[0].supports[1], cases[i].supports[1]);
-        assert_true(set->bodies[0].radius == 0.01);
+        assert_true(set->bodies[0].radius == (block ? 0.0 : 0.01));
         body_set_free(set);
     }
 }
@@ -279,6 +284,8 @@ static void changes_its_revision_with_the_content(void **state)
         "  r: {shape: rod, material: m, radius: 0.01, length: 1, damping: 0.01}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 1, modes: 7}\n",
         "  r: {shape: block, material: m, size: [1, 1, 1]}\n",
+        "  r: {shape: block, material: m, size: [1, 1, 1], ends: clamped}\n",
+        "  r: {shape: block, material: m, size: [1, 1, 1], ends: cantilever}\n",
         "  r: {shape: block, material: m, size: [1, 1, 1], rigid: true}\n",
         "  r: {shape: beam, material: m, radius: 0.01, length: 1}\n",
         "  r: {shape: beam, material: m, radius: 0.01, length: 1, theory: euler-bernoulli}\n",

@@ -64,9 +64,9 @@ static void defaults_hold_where_they_are_written(void **state)
             written++;
         }
     }
-    /* ends of rod and beam, lateral inertia, theory, shear factor, rigid blocks and cylinders;
-     * tangent of each */
-    assert_int_equal(written, 7 + COUNT(BODIES));
+    /* ends of rod, beam and block, lateral inertia, theory, shear factor, rigid blocks and
+     * cylinders; tangent of each */
+    assert_int_equal(written, 8 + COUNT(BODIES));
 }
 
 static void check_meanings(const struct key_table *table)

@@ -273,6 +273,11 @@ static void refuses_impossible_bodies(void **state)
     REFUSE(beam, supports[0] = 3, "ends: 3: must be one of free, pinned, clamped");
     REFUSE(flat, height = 0.0, "section.height: 0: must be");
     REFUSE(block, size[2] = -1.0, "size[2]: -1: must be");
+    REFUSE(block, supports[1] = SUPPORT_PINNED, "ends: 1: must be one of free, clamped");
+    struct body held = block;
+    held.supports[0] = SUPPORT_CLAMPED;
+    REFUSE(held, rigid = true, "rigid: true: must be false where an end is held");
+    REFUSE(held, size[1] = 0.0002, "ends: must be free where the block is thinner than 1/200");
 }
 
 static void refuses_impossible_materials(void **state)

@@ -24,6 +24,40 @@ static void a_line(void **state)
             near(sum[i][j], i == j ? 1.0 : 0.0, 1e-13);
 }
 
+/* They vanish where they are held; with none held they are Legendre's. */
+static void a_held_line(void **state)
+{
+    (void)state;
+    double x[ORDER + 3], weight[ORDER + 3], value[ORDER], other[ORDER], slope[ORDER];
+    polynomial_gauss(ORDER + 3, x, weight);
+    for (int ends = 0; ends < 4; ends++) {
+        const bool held[2] = {ends & 1, ends & 2};
+        double sum[ORDER][ORDER] = {{0.0}};
+        for (int k = 0; k < ORDER + 3; k++) {
+            polynomial_held(ORDER, held, 2.0 * x[k] - 1.0, value, NULL);
+            for (int i = 0; i < ORDER; i++)
+                for (int j = 0; j < ORDER; j++)
+                    sum[i][j] += weight[k] * value[i] * value[j];
+        }
+        for (int i = 0; i < ORDER; i++)
+            for (int j = 0; j < ORDER; j++)
+                near(sum[i][j], i == j ? 1.0 : 0.0, 1e-13);
+        for (int end = 0; end < 2; end++) {
+            polynomial_held(ORDER, held, end ? 1.0 : -1.0, value, NULL);
+            for (int i = 0; i < ORDER; i++)
+                assert_true((value[i] == 0.0) == held[end]);
+        }
+        const double at = 0.37, step = 1e-6;
+        polynomial_held(ORDER, held, at - step, other, NULL);
+        polynomial_held(ORDER, held, at + step, value, slope);
+        for (int i = 0; i < ORDER; i++)
+            near((value[i] - other[i]) / (2.0 * step), slope[i], 1e-3);
+        polynomial_legendre(ORDER, at + step, other);
+        for (int i = 0; ends == 0 && i < ORDER; i++)
+            near(value[i], other[i], 1e-13);
+    }
+}
+
 static void a_circle(void **state)
 {
     (void)state;
@@ -78,6 +112,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line),
+        cmocka_unit_test(a_held_line),
         cmocka_unit_test(a_circle),
         cmocka_unit_test(derivatives),
     };

@@ -12,7 +12,7 @@
 #include "check.h"
 
 enum { LITTLE = 48 << 20 };
-static const struct ritz_shape cube = {{1.0, 0.9, 0.8}, false};
+static const struct ritz_shape cube = {.side = {1.0, 0.9, 0.8}};
 
 /* Lets the first thread begin, and stops it once the other one waits. */
 struct meeting {
@@ -151,7 +151,7 @@ static void memory_is_bounded(void **state)
     size_t bytes = 0; /* of all that were made */
     unsigned long made = 1;
     for (; bytes < 2 * LITTLE; made++) {
-        const struct ritz_shape another = {{1.0, 0.99, 0.7 + 0.001 * (double)made}, false};
+        const struct ritz_shape another = {.side = {1.0, 0.99, 0.7 + 0.001 * (double)made}};
         struct ritz_box *box = ritz_store_hold(store, &another, 0.3, NULL);
         assert_non_null(box);
         bytes += ritz_size(ritz_box_vibration(box));
@@ -161,13 +161,34 @@ static void memory_is_bounded(void **state)
         assert_int_equal(ritz_store_computed(store), made + 1);
     }
     /* the first one of them is gone, the one that is held is not */
-    const struct ritz_shape first = {{1.0, 0.99, 0.701}, false};
+    const struct ritz_shape first = {.side = {1.0, 0.99, 0.701}};
     ritz_store_release(store, ritz_store_hold(store, &first, 0.3, NULL));
     assert_int_equal(ritz_store_computed(store), made + 1);
     struct ritz_box *again = ritz_store_hold(store, &cube, 0.3, NULL);
     assert_ptr_equal(again, kept);
     ritz_store_release(store, again);
     ritz_store_release(store, kept);
+    ritz_store_free(store);
+}
+
+/* The same sides held otherwise are another box. */
+static void held_ends_are_told_apart(void **state)
+{
+    (void)state;
+    struct ritz_store *store = ritz_store_create(4 * LITTLE);
+    struct ritz_box *boxes[4];
+    for (int round = 0; round < 2; round++)
+        for (int ends = 0; ends < 4; ends++) {
+            const struct ritz_shape shape = {.side = {1.0, 0.3, 0.3}, .held = {ends & 1, ends & 2}};
+            struct ritz_box *box = ritz_store_hold(store, &shape, 0.3, NULL);
+            assert_non_null(box);
+            if (round == 0)
+                boxes[ends] = box;
+            assert_ptr_equal(box, boxes[ends]);
+        }
+    assert_int_equal(ritz_store_computed(store), 4);
+    for (int k = 0; k < 8; k++)
+        ritz_store_release(store, boxes[k / 2]);
     ritz_store_free(store);
 }
 
@@ -178,6 +199,7 @@ int main(void)
         cmocka_unit_test(a_stopped_one_is_replaced),
         cmocka_unit_test(nothing_is_left_of_a_stopped_one),
         cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(held_ends_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,498 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/ritz.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/boussinesq3.h"
+#include "model/polynomial.h"
+#include "model/ritz_parts.h"
+#include "model/vector.h"
+#include "numeric/linear.h"
+
+/* Gauss' rule of six points on panels that grow away from a place. */
+enum { GAUSS = 6, MOST_PANELS = 40, MOST_POINTS = GAUSS * MOST_PANELS };
+static const double GROWTH = 2.2;
+static const double GAUSS_POINT[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+static const double GAUSS_WEIGHT[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+
+struct rule {
+    size_t count;
+    double x[MOST_POINTS], weight[MOST_POINTS];
+};
+
+static void add_panel(struct rule *rule, double from, double to)
+{
+    double half = 0.5 * (to - from);
+    if (!(half > 0.0) || rule->count + GAUSS > MOST_POINTS)
+        return;
+    for (int i = 0; i < GAUSS; i++) {
+        int k = i < 3 ? 2 - i : i - 3;
+        rule->x[rule->count] = 0.5 * (from + to) + (i < 3 ? -half : half) * GAUSS_POINT[k];
+        rule->weight[rule->count++] = half * GAUSS_WEIGHT[k];
+    }
+}
+
+/* Over [-half, half], fine at `place` for what varies over `scale`. */
+static void make_rule(double half, double place, double scale, struct rule *rule)
+{
+    rule->count = 0;
+    scale = fmax(scale, 1e-3 * half);
+    for (int side = -1; side <= 1; side += 2) {
+        double way = half - side * place, from = 0.0;
+        for (double to = scale; from < way; to *= GROWTH) {
+            double end = to * GROWTH > way ? way : to;
+            add_panel(rule, place + side * (side > 0 ? from : end),
+                      place + side * (side > 0 ? end : from));
+            from = end;
+        }
+    }
+}
+
+/* A unit force along the inward normal of a face, and what is summed up over the other five. */
+struct push {
+    const struct ritz *ritz;
+    int axis, side; /* the face */
+    struct boussinesq3 load;
+    bool inside;      /* of the cut: what is summed up is not the surface */
+    double surface;   /* of the half-space's traction times its displacement */
+    double motion[3]; /* of the half-space's field times the density, along the outward normal and
+                       * in the two rotations that the force takes part in */
+    double *force;    /* [component][order along x][y][z]: minus its traction on the products */
+};
+
+/* A field in equilibrium with minus the inertia of a rigid motion that leaves the loaded face free
+ * and moves the loaded point not: it turns the integral of the half-space's field over the body
+ * into ones over the other faces (Betti). Coordinates: x along `other`, z along the outward normal
+ * from the middle; other = the axis itself: along the normal. */
+static void reciprocal(const struct push *push, int other, const double at[3], double u[3],
+                       double stress[6])
+{
+    const struct ritz *ritz = push->ritz;
+    double poisson = ritz->poisson, mu = 0.5 / (1.0 + poisson);
+    double lambda = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), stiff = lambda + 2.0 * mu;
+    double top = 0.5 * ritz->side[push->axis], z = push->side * at[push->axis], below = z - top;
+    double normal[3] = {0.0}, full[3][3] = {{0.0}};
+    int n = push->axis;
+    memset(u, 0, 3 * sizeof *u);
+    normal[n] = push->side;
+    if (other == n) {
+        /* u_z'' = -1/stiff */
+        double slope = -below / stiff;
+        u[n] = -0.5 * below * below / stiff * normal[n];
+        for (int i = 0; i < 3; i++)
+            full[i][i] = (i == n ? stiff : lambda) * slope;
+    } else {
+        /* of the rotation (z, -x): u_z = x q(z), u_x = r(z) */
+        double x = at[other], kappa = (lambda + mu) / stiff;
+        double q = 0.5 * below * below / stiff, slope = below / stiff;
+        double turn = -(0.5 * (z * z - top * top) + 0.5 * kappa * below * below) / mu;
+        double r =
+            -((z * z * z / 3.0 - top * top * z) / 2.0 + kappa * below * below * below / 6.0) / mu;
+        u[n] = x * q * normal[n];
+        u[other] = r;
+        for (int i = 0; i < 3; i++)
+            full[i][i] = (i == n ? stiff : lambda) * x * slope;
+        full[n][other] = full[other][n] = mu * (q + turn) * normal[n];
+    }
+    for (int i = 0; i < 3; i++)
+        stress[i] = full[i][i];
+    stress[3] = full[0][1];
+    stress[4] = full[1][2];
+    stress[5] = full[2][0];
+}
+
+/* What one point of a face adds to the sums: the traction, weighted. */
+static void add_point(struct push *push, const double at[3], const double outward[3], double weight,
+                      double traction[3])
+{
+    double u[3], stress[6];
+    boussinesq3_field(&push->load, at, u, stress);
+    boussinesq3_traction(stress, outward, traction);
+    push->surface += push->inside ? 0.0 : weight * dot3(traction, u);
+    for (int i = 0; i < 3; i++) {
+        double field[3], pulled[3];
+        int other = (push->axis + i) % 3;
+        reciprocal(push, other, at, field, stress);
+        boussinesq3_traction(stress, outward, pulled);
+        push->motion[i] += weight * (dot3(traction, field) - dot3(pulled, u));
+    }
+    scale3(weight, traction, traction);
+}
+
+/* One face, its sums with all products. `rows`: [3][RITZ_MOST_ORDERS] of one line of points. */
+static bool add_face(struct push *push, int axis, int side)
+{
+    const struct ritz *ritz = push->ritz;
+    int across = (axis + 1) % 3, along = (axis + 2) % 3;
+    const double *half = ritz->side, *place = push->load.point;
+    double distance = fabs(0.5 * side * half[axis] - place[axis]);
+    size_t n[3] = {ritz->orders[axis], ritz->orders[across], ritz->orders[along]};
+    struct rule *rules = calloc(2, sizeof *rules);
+    double *products = calloc(3 * RITZ_MOST_ORDERS * RITZ_MOST_ORDERS, sizeof *products);
+    if (rules && products) {
+        make_rule(0.5 * half[across], place[across], distance, &rules[0]);
+        make_rule(0.5 * half[along], place[along], distance, &rules[1]);
+    }
+    double at[3], outward[3] = {0.0}, traction[3], table[RITZ_MOST_ORDERS];
+    outward[axis] = side;
+    at[axis] = 0.5 * side * half[axis];
+    for (size_t i = 0; rules && products && i < rules[0].count; i++) {
+        double line[3][RITZ_MOST_ORDERS] = {{0.0}};
+        at[across] = rules[0].x[i];
+        /* along one line, then across */
+        for (size_t j = 0; j < rules[1].count; j++) {
+            at[along] = rules[1].x[j];
+            add_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j], traction);
+            polynomial_legendre(n[2], 2.0 * at[along] / half[along], table);
+            for (int c = 0; c < 3; c++)
+                for (size_t q = 0; q < n[2]; q++)
+                    line[c][q] += traction[c] * table[q];
+        }
+        polynomial_legendre(n[1], 2.0 * at[across] / half[across], table);
+        for (int c = 0; c < 3; c++)
+            for (size_t p = 0; p < n[1]; p++)
+                for (size_t q = 0; q < n[2]; q++)
+                    products[(c * RITZ_MOST_ORDERS + p) * RITZ_MOST_ORDERS + q] +=
+                        table[p] * line[c][q];
+    }
+    /* times those of the face's own place */
+    polynomial_legendre(n[0], side, table);
+    double scale = -1.0 / sqrt(ritz->mass);
+    size_t order[3];
+    const size_t *all = ritz->orders;
+    for (int c = 0; rules && products && c < 3; c++)
+        for (order[0] = 0; order[0] < all[0]; order[0]++)
+            for (order[1] = 0; order[1] < all[1]; order[1]++)
+                for (order[2] = 0; order[2] < all[2]; order[2]++)
+                    push->force[((c * all[0] + order[0]) * all[1] + order[1]) * all[2] +
+                                order[2]] +=
+                        scale * table[order[axis]] *
+                        products[(c * RITZ_MOST_ORDERS + order[across]) * RITZ_MOST_ORDERS +
+                                 order[along]];
+    bool good = rules && products;
+    free(rules);
+    free(products);
+    return good;
+}
+
+/* A point of a cylinder's surface, with all products. */
+static void add_round_point(struct push *push, const double at[3], const double outward[3],
+                            double weight)
+{
+    const struct ritz *ritz = push->ritz;
+    const size_t *all = ritz->orders;
+    struct ritz_functions functions;
+    double traction[3], scale = -1.0 / sqrt(ritz->mass);
+    add_point(push, at, outward, weight, traction);
+    ritz_functions_fill(ritz, at, &functions);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t p = 0; p < all[0]; p++) {
+            double line = scale * traction[c] * functions.along[0][p];
+            for (size_t q = 0; q < all[1]; q++)
+                for (size_t r = 0; q + r < all[1]; r++)
+                    push->force[((c * all[0] + p) * all[1] + q) * all[2] + r] +=
+                        line * functions.section[q * POLYNOMIAL_MOST + r];
+        }
+}
+
+/* Radii from 0 on, fine for what varies over `scale`, with an end of a panel at `cut`. */
+static void make_radii(double most, double scale, double cut, struct rule *rule)
+{
+    double from = 0.0;
+    rule->count = 0;
+    if (cut > 0.0 && cut < most) {
+        add_panel(rule, 0.0, cut);
+        from = cut;
+        scale = GROWTH * cut;
+    }
+    for (double to = fmax(scale, 1e-3 * most); from < most; to *= GROWTH) {
+        double end = to * GROWTH > most ? most : to;
+        add_panel(rule, from, end);
+        from = end;
+    }
+}
+
+/* The end face at side * length / 2, in polar coordinates about the foot of the load's point. */
+static void add_end(struct push *push, int side, struct rule rules[2])
+{
+    const double *place = push->load.point;
+    double radius = 0.5 * push->ritz->side[1], x = 0.5 * side * push->ritz->side[0];
+    double own = atan2(place[2], place[1]), square = place[1] * place[1] + place[2] * place[2];
+    const double outward[3] = {side, 0.0, 0.0};
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        add_panel(&rules[0], own + 0.25 * M_PI * i, own + 0.25 * M_PI * (i + 1));
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double y = cos(rules[0].x[i]), z = sin(rules[0].x[i]), along = place[1] * y + place[2] * z;
+        double most = sqrt(fmax(along * along + radius * radius - square, 0.0)) - along;
+        make_radii(most, fabs(x - place[0]), 0.0, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j];
+            const double at[3] = {x, place[1] + r * y, place[2] + r * z};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+}
+
+/* The side, of a load on an end. */
+static void add_other_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    const double *place = push->load.point;
+    double radius = 0.5 * ritz->side[1], own = atan2(place[2], place[1]);
+    double distance = radius - hypot(place[1], place[2]);
+    make_rule(0.5 * ritz->side[0], place[0], distance, &rules[0]);
+    make_rule(M_PI, 0.0, distance / radius, &rules[1]);
+    for (size_t i = 0; i < rules[0].count; i++)
+        for (size_t j = 0; j < rules[1].count; j++) {
+            const double outward[3] = {0.0, cos(own + rules[1].x[j]), sin(own + rules[1].x[j])};
+            const double at[3] = {rules[0].x[i], radius * outward[1], radius * outward[2]};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * radius);
+        }
+}
+
+/* The side that the load acts on, rolled out, in polar coordinates about its point, which has z =
+ * 0: angles between the corners, radii with an end at the cut. */
+static void add_own_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    double radius = 0.5 * ritz->side[1], half = M_PI * radius, x0 = push->load.point[0];
+    double ahead = 0.5 * ritz->side[0] - x0, behind = 0.5 * ritz->side[0] + x0;
+    const double corner[9] = {
+        0.0,       atan2(half, ahead),         0.5 * M_PI, M_PI - atan2(half, behind),
+        M_PI,      M_PI + atan2(half, behind), 1.5 * M_PI, 2.0 * M_PI - atan2(half, ahead),
+        2.0 * M_PI};
+    double cut = RITZ_CUT * ritz->side[1];
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        for (int part = 0; part < 2; part++) {
+            double middle = 0.5 * (corner[i] + corner[i + 1]);
+            add_panel(&rules[0], part ? middle : corner[i], part ? corner[i + 1] : middle);
+        }
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double x = cos(rules[0].x[i]), s = sin(rules[0].x[i]);
+        double most = fmin((x > 0.0 ? ahead : behind) / fabs(x), half / fabs(s));
+        make_radii(most, radius, cut, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j], angle = r * s / radius;
+            const double outward[3] = {0.0, cos(angle), sin(angle)};
+            const double at[3] = {x0 + r * x, radius * outward[1], radius * outward[2]};
+            push->inside = r < cut;
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+    push->inside = false;
+}
+
+/* All but an end's own face. */
+static bool add_round(struct push *push, bool on_side)
+{
+    struct rule *rules = calloc(2, sizeof *rules);
+    if (!rules)
+        return false;
+    for (int side = -1; side <= 1; side += 2)
+        if (on_side || side != push->side)
+            add_end(push, side, rules);
+    if (on_side)
+        add_own_side(push, rules);
+    else
+        add_other_side(push, rules);
+    free(rules);
+    return true;
+}
+
+/* The forces on a class' coordinates. */
+static void gather(const struct push *push, const struct ritz_class *class, double *f)
+{
+    const size_t *all = push->ritz->orders;
+    for (size_t i = 0; i < class->count; i++) {
+        const unsigned char *order = class->order[i];
+        size_t c = (size_t)ritz_component(class, i);
+        f[i] = push->force[((c * all[0] + order[0]) * all[1] + order[1]) * all[2] + order[2]];
+    }
+}
+
+/* f K^-1 f of a class, without its rigid motions. Room for as much again behind f. */
+static double energy_of(const struct ritz_class *class, double *f)
+{
+    size_t n = class->count;
+    double *solved = f + n, sum = 0.0;
+    if (n == 0)
+        return 0.0;
+    for (size_t r = 0; r < class->rigids; r++) {
+        double part = 0.0;
+        for (size_t i = 0; i < n; i++)
+            part += class->rigid[r][i] * f[i];
+        for (size_t i = 0; i < n; i++)
+            f[i] -= part * class->rigid[r][i];
+    }
+    memcpy(solved, f, n * sizeof *f);
+    linear_packed_solve(n, class->factor, solved);
+    for (size_t i = 0; i < n; i++)
+        sum += f[i] * solved[i];
+    return sum;
+}
+
+/* Mean square of a coordinate. */
+static double mean_square(const struct ritz *ritz, int axis)
+{
+    return ritz->side[axis] * ritz->side[axis] / (ritz->round && axis > 0 ? 16.0 : 12.0);
+}
+
+/* Where and how the load acts; of a cylinder's side turned to z = 0. */
+static void place_load(struct push *push, int axis, const double point[3])
+{
+    const struct ritz *ritz = push->ritz;
+    push->load = (struct boussinesq3){.young = 1.0, .poisson = ritz->poisson, .reach = INFINITY};
+    push->load.inward[push->axis] = -push->side;
+    double *at = push->load.point;
+    memcpy(at, point, sizeof push->load.point);
+    at[push->axis] = 0.5 * push->side * ritz->side[push->axis];
+    if (axis == RITZ_ROUND)
+        at[2] = 0.0;
+    /* a rim is as good as the edge */
+    double off = hypot(at[1], at[2]), most = 0.5 * ritz->side[1];
+    if (ritz->round && axis == 0 && off > most) {
+        at[1] *= most / off;
+        at[2] *= most / off;
+    }
+}
+
+static double *make_room(const struct ritz *ritz)
+{
+    size_t largest = 0;
+    for (int c = 0; c < RITZ_CLASSES; c++)
+        largest = ritz->class[c].count > largest ? ritz->class[c].count : largest;
+    return calloc(2 * largest + 1, sizeof(double));
+}
+
+/* As of meshes: f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions. */
+static double of_free(const struct ritz *ritz, int axis, int side, const double point[3])
+{
+    const size_t *n = ritz->orders;
+    bool on_side = axis == RITZ_ROUND;
+    struct push push = {.ritz = ritz, .axis = on_side ? 1 : axis, .side = on_side ? 1 : side};
+    place_load(&push, axis, point);
+    /* the other faces */
+    push.force = calloc(3 * n[0] * n[1] * n[2], sizeof *push.force);
+    bool good = push.force != NULL;
+    for (int face = 0; good && !ritz->round && face < 6; face++)
+        if (face / 2 != axis || (face % 2 ? 1 : -1) != side)
+            good = add_face(&push, face / 2, face % 2 ? 1 : -1);
+    if (good && ritz->round)
+        good = add_round(&push, on_side);
+    /* rigid motions: the force is -1 along the outward normal z, x along it in the rotation */
+    double sum = -push.surface + 2.0 * push.motion[0] / ritz->mass;
+    for (int i = 1; i < 3; i++) {
+        int other = (push.axis + i) % 3;
+        double inertia = ritz->mass * (mean_square(ritz, other) + mean_square(ritz, push.axis));
+        sum -= 2.0 * push.load.point[other] * push.motion[i] / inertia;
+    }
+    /* and the elastic ones */
+    double *f = make_room(ritz);
+    for (int c = 0; good && f && c < RITZ_CLASSES; c++) {
+        gather(&push, &ritz->class[c], f);
+        sum += energy_of(&ritz->class[c], f);
+    }
+    good = good && f;
+    free(push.force);
+    free(f);
+    return good ? sum : NAN;
+}
+
+/* To a force at the point by the polynomials alone: it grows with their number, as of any that
+ * resolve as much there. */
+static double by_polynomials(const struct ritz *ritz, const struct boussinesq3 *load)
+{
+    struct ritz_functions functions;
+    double *f = make_room(ritz), sum = 0.0;
+    ritz_functions_fill(ritz, load->point, &functions);
+    for (int c = 0; f && c < RITZ_CLASSES; c++) {
+        ritz_functions_of_class(ritz, &ritz->class[c], &functions, load -> inward, f);
+        sum += energy_of(&ritz->class[c], f);
+    }
+    free(f);
+    return f ? sum : NAN;
+}
+
+/* Of a held box: that of the free one, and what holding it changes, which is smooth away from the
+ * held face: from polynomials that are all of the free one's that vanish there. */
+double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3])
+{
+    if (!ritz->free)
+        return of_free(ritz, axis, side, point);
+    struct push push = {.ritz = ritz, .axis = axis, .side = side};
+    place_load(&push, axis, point);
+    return of_free(ritz->free, axis, side, point) + by_polynomials(ritz, &push.load) -
+           by_polynomials(ritz->free, &push.load);
+}
+
+/* (1 + nu)(1 - 2 nu)^2/(2 pi) of the mean curvature, 1/(2 R). */
+double ritz_slope(const struct ritz *ritz)
+{
+    double side = 1.0 - 2.0 * ritz->poisson;
+    return (1.0 + ritz->poisson) * side * side / (2.0 * M_PI * ritz->side[1]);
+}
+
+/* Of a plate hit in its middle the flexibility lacks 0.11 exp(-4 (s - 1))/(E h) with s polynomials
+ * for each thickness h along its sides, s = 0.5 ... 2; polynomials are denser near the ends. */
+static double lacking(const struct ritz *ritz, int axis, const double point[3], double distance)
+{
+    static const double ONE = 0.11, FALL = 4.0, MOST = 1.2;
+    double least = INFINITY;
+    for (int i = 1; i < 3; i++) {
+        int d = (axis + i) % 3;
+        double x = 2.0 * point[d] / ritz->side[d];
+        if (ritz->round && axis == 0)
+            x = 2.0 * hypot(point[1], point[2]) / ritz->side[1];
+        double spacing = ritz->side[d] * sqrt(fmax(1.0 - x * x, 1e-4)) / (double)ritz->orders[d];
+        least = fmin(least, distance / spacing);
+    }
+    return fmin(ONE * exp(FALL * (1.0 - least)), MOST) / distance;
+}
+
+/* Beside a held face and where the mirror of the load is held, by polynomials that are finer by a
+ * half: 0.01 to 0.003 over the distance, which the edges of held faces, whose stress is infinite,
+ * leave. */
+static double beside_held(const struct ritz *ritz, const double point[3])
+{
+    static const double HELD = 0.02;
+    double sum = 0.0;
+    for (int end = 0; end < 2; end++) {
+        double distance = 0.5 * ritz->side[0] + (end ? -point[0] : point[0]);
+        if (ritz->held[end])
+            sum += HELD / fmax(distance, 1e-3 * ritz->side[0]);
+    }
+    return sum;
+}
+
+struct ritz_unresolved ritz_unresolved_at(const struct ritz *ritz, int axis, int side,
+                                          const double point[3])
+{
+    static const double DOUBT = 0.3, DOUBT_HELD = 0.5;
+    int along = axis == RITZ_ROUND ? 1 : axis;
+    const double turned[3] = {point[0], 0.5 * ritz->side[1], 0.0};
+    const double *at = axis == RITZ_ROUND ? turned : point;
+    struct ritz_unresolved unresolved = {lacking(ritz, along, at, ritz->side[along]), 0.0};
+    unresolved.doubt = (ritz->free ? DOUBT_HELD : DOUBT) * unresolved.lacks;
+    /* the opposite face is held: it is stiffer, not softer */
+    if (ritz->free && axis == 0 && ritz->held[side < 0]) {
+        unresolved.doubt = unresolved.lacks;
+        unresolved.lacks = 0.0;
+    }
+    unresolved.doubt += beside_held(ritz, at);
+    for (int i = 1; i < 3; i++) {
+        int d = (along + i) % 3;
+        double off = ritz->round && axis == 0 ? hypot(point[1], point[2]) : fabs(at[d]);
+        double near = fmax(0.5 * ritz->side[d] - off, 1e-3 * ritz->side[d]);
+        /* of a circle the rim counts once, of its side the ends */
+        if (ritz->round && d == 2)
+            continue;
+        unresolved.doubt += lacking(ritz, along, at, near);
+    }
+    return unresolved;
+}
