@@ -33,6 +33,29 @@ static bool matters(const struct problem *problem, size_t body)
     return false;
 }
 
+/* At an edge the flexibility is infinite, and no polynomials have it: a place counts as no nearer
+ * than so many shortest sides, where its error is as large as the answer. */
+static const double NEAREST_EDGE = 0.05;
+
+static void keep_off_edges(const struct body *body, struct mesh_load *load)
+{
+    struct ritz_shape shape;
+    body->kind->box(body, &shape);
+    double longest = fmax(shape.side[0], fmax(shape.side[1], shape.side[2]));
+    double shortest = fmin(shape.side[0], fmin(shape.side[1], shape.side[2]));
+    double off = NEAREST_EDGE * shortest / longest;
+    for (int d = 0; d < 3; d++) {
+        double most = 0.5 * shape.side[d] / longest - off;
+        /* of a cylinder's side only the ends are edges */
+        if (d != load->axis && !(shape.round && d > 0))
+            load->point[d] = fmax(-most, fmin(load->point[d], most));
+    }
+    double out = hypot(load->point[1], load->point[2]);
+    double most = 0.5 * shape.side[1] / longest - off;
+    for (int d = 1; shape.round && load->axis == 0 && out > most && d < 3; d++)
+        load->point[d] *= most / out;
+}
+
 /* Its static flexibility at a contact: without the half-space's. */
 static bool lend_load(struct problem *problem, size_t c, int which)
 {
@@ -41,6 +64,7 @@ static bool lend_load(struct problem *problem, size_t c, int which)
     side->load = site_load_make(body, &side->site, side->direction);
     struct mesh_load *load = &side->load.family[0].mesh;
     double unit = mesh_ratio_flexibility(body);
+    keep_off_edges(body, load);
     struct ritz_unresolved unresolved =
         ritz_unresolved_at(body->ritz, load->axis, load->side, load->point);
     double flexibility =

@@ -112,6 +112,30 @@ static void strips_are_blocks(void **state)
     lab_free(lab);
 }
 
+/* At the very edge, where the flexibility is infinite, there is an answer, and its error says that
+ * it is worth nothing; a tenth of a thickness beside it, too. */
+static void an_edge_is_answered(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, 0.004));
+    lab_add(lab, "block", make_block(plate_glass, 0.12, 0.04, 0.004));
+    const double beside[] = {0.0, 0.0001, 0.0004};
+    double e[3];
+    for (int i = 0; i < 3; i++) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.004), top("block", 0.06 - beside[i], 0.0, 0.004), 0.5);
+        lab_solve(lab, &request, &result);
+        assert_int_equal(result.status, PERCUSS_OK);
+        e[i] = result.contacts[0].restitution;
+        assert_true(e[i] > 0.0 && e[i] <= 1.0);
+        assert_true(i == 2 || result.restitution_total > 0.5 * e[i]);
+        assert_false(result.total_met);
+    }
+    assert_true(fabs(e[0] - e[1]) < 0.01 && fabs(e[1] - e[2]) < 0.1);
+    lab_free(lab);
+}
+
 /* d' = v - lambda F, v' = -F with F = d^1.5 in Zener's units (PHYSICS: .4369 at .5, .1841 at 1):
  * the ball's own rebound from an infinite plate. Waves come back later than the ball leaves; a body
  * of the mass M moves besides. */
@@ -273,9 +297,13 @@ static void groups_on_a_plate(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_meshes),         cmocka_unit_test(strips_are_blocks),
-        cmocka_unit_test(as_zener),          cmocka_unit_test(compact_ones_stay_rigid),
-        cmocka_unit_test(rigid_is_a_choice), cmocka_unit_test(blows_in_a_row),
+        cmocka_unit_test(as_meshes),
+        cmocka_unit_test(strips_are_blocks),
+        cmocka_unit_test(an_edge_is_answered),
+        cmocka_unit_test(as_zener),
+        cmocka_unit_test(compact_ones_stay_rigid),
+        cmocka_unit_test(rigid_is_a_choice),
+        cmocka_unit_test(blows_in_a_row),
         cmocka_unit_test(groups_on_a_plate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
