@@ -108,13 +108,23 @@ void outcome_widen_impulses(const struct problem *problem, const struct impact_o
         change[c] = fmax(change[c], fabs(a->tracks[c].impulse - b->tracks[c].impulse));
 }
 
-/* The group of the same oscillators in another solution; its number of groups: none is. */
-static size_t same_group(const struct impact_outcome *outcome, const struct scene_group *group)
+static bool is_alike(const struct scene_group *a, const struct scene_group *b)
 {
-    size_t g = 0;
-    while (g < outcome->groups &&
-           (outcome->group[g].set != group->set || outcome->group[g].body != group->body))
-        g++;
+    return a->body == b->body && a->set->omega[0] == b->set->omega[0];
+}
+
+/* The group of the same oscillators in another solution, told by its first frequency, and among
+ * equal ones (two planes of a square bar) by its place: sets are made anew where more modes are
+ * asked for, so that their addresses depend on earlier requests. Its number of groups: none is. */
+static size_t same_group(const struct impact_outcome *outcome, const struct impact_outcome *other,
+                         size_t group)
+{
+    size_t before = 0, g = 0;
+    for (size_t k = 0; k < group; k++)
+        before += is_alike(&outcome->group[k], &outcome->group[group]);
+    for (; g < other->groups; g++)
+        if (is_alike(&other->group[g], &outcome->group[group]) && before-- == 0)
+            break;
     return g;
 }
 
@@ -183,7 +193,7 @@ void outcome_widen_vibration(const struct problem *problem, const struct impact_
     /* begun otherwise, they have that in them, too */
     bool alike = true;
     for (size_t g = 0; g < a->groups; g++) {
-        size_t h = same_group(b, &a->group[g]);
+        size_t h = same_group(a, b, g);
         alike = alike && (h == b->groups || a->group[g].q == b->group[h].q);
     }
     if (!alike && (!take_stated(a, time, problem->arena, &ends[0]) ||
@@ -191,7 +201,7 @@ void outcome_widen_vibration(const struct problem *problem, const struct impact_
         return;
     for (size_t g = 0; g < a->groups; g++) {
         const struct scene_group *group = &a->group[g];
-        size_t h = same_group(b, group);
+        size_t h = same_group(a, b, g);
         size_t count = h == b->groups                     ? 0
                        : b->group[h].count < group->count ? b->group[h].count
                                                           : group->count;
