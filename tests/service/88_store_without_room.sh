@@ -4,11 +4,13 @@
 # A store on a volume without room: the daemon starts, answers impacts, refuses those on specimens by name and
 # stores them when there is room; the log beside the store leaves room to be written back.
 if [ "${PERCUSS_OWN_MOUNTS:-}" != yes ]; then
-    unshare -rm true 2>/dev/null || {
+    # root needs no namespace of users, and has none in a root of its own (chroot)
+    [ "$(id -u)" = 0 ] && own="unshare --mount" || own="unshare -rm"
+    $own true 2>/dev/null || {
         echo "no volume can be mounted here"
         exit 77
     }
-    PERCUSS_OWN_MOUNTS=yes exec unshare -rm sh "$0" "$@"
+    PERCUSS_OWN_MOUNTS=yes exec $own sh "$0" "$@"
 fi
 . "$(dirname "$0")/lib.sh"
 
