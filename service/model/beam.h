@@ -11,7 +11,8 @@
 
 #include "model/body.h"
 
-/* Broader sections, in depths, bend across their breadth as well: a beam is none of theirs. */
+/* Sections that are broader, in depths, bend across their breadth as well, as no theory of beams
+ * says. */
 #define BEAM_BROADEST 2.5
 
 /* One plane of bending. x runs from -length/2 to +length/2. */

@@ -31,7 +31,7 @@ struct body {
     double width, height;         /* rectangular beam: along y, along z; 0 otherwise */
     double length;                /* rod, beam, cylinder */
     double tip_radius;            /* rod; INFINITY: flat ends */
-    double size[3];       /* block: along x, y, z; lengths of any other kind as its keys say */
+    double size[3]; /* block, strip: along x, y, z; lengths of any other kind as its keys say */
     bool lateral_inertia; /* rod: Rayleigh-Love */
     enum beam_theory theory;
     enum shear_rule shear_rule;

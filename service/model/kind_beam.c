@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include <math.h>
-#include <string.h>
 
 #include "model/bar.h"
 #include "model/beam.h"
@@ -175,15 +174,11 @@ static void choose_kind(struct body *body)
     bool pinned = body->supports[0] == SUPPORT_PINNED || body->supports[1] == SUPPORT_PINNED;
     bool asked = body->theory != THEORY_TIMOSHENKO || body->shear_rule != SHEAR_ABSENT;
 
-    body->kind = &beam_kind;
-    memset(body->size, 0, sizeof body->size);
-    if (!broad || pinned || asked)
-        return;
-    memcpy(body->size, (const double[]){body->length, w, h}, sizeof body->size);
-    if (mesh_family_box(body, &shape))
-        body->kind = &strip_kind;
-    else
-        memset(body->size, 0, sizeof body->size);
+    bool strip = broad && !pinned && !asked;
+    const double size[3] = {body->length, w, h};
+    for (int i = 0; i < 3; i++)
+        body->size[i] = strip ? size[i] : 0.0;
+    body->kind = strip && mesh_family_box(body, &shape) ? &strip_kind : &beam_kind;
 }
 
 static enum percuss_status complete(struct body *body, struct fault *fault)

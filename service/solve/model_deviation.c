@@ -45,6 +45,12 @@ static const double RAYLEIGH_LOVE = 0.5;
 static const double HUTCHINSON = 1.0;
 static const double COWPER = 0.25;
 static const double EULER_BERNOULLI = 5.0;
+/* A clamp in three dimensions holds a section's own deformation, too: a bar is stiffer than its
+ * theory by the square of (half section / distance from the clamp), and all of it by (half section
+ * / length). Of 120 blows on bars of 6 to 24 depths and the same as blocks 103 were covered without
+ * this, with it 118, and 116 of 120 others; most of the rest are of four to seven sub-impacts. */
+static const double CLAMP_NEAR = 0.16;
+static const double CLAMP = 0.02;
 /* Size and shape of contacts that flow: what is estimated of them (law_error.h) is a mean. */
 static const double ROUND = 1.25;
 /* Mean stiffness of a Hertz contact over peak force / indentation, weighted by its force. */
@@ -171,6 +177,18 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
     return sum;
 }
 
+static double clamps_of(const struct body *body, const struct site *site)
+{
+    double half = half_section(body), sum = 0.0;
+    for (int end = 0; end < 2; end++) {
+        double distance = 0.5 * body->length + (end == 0 ? 1.0 : -1.0) * site->point[0];
+        double ratio = half / fmax(distance, half);
+        if (body->supports[end] == SUPPORT_CLAMPED)
+            sum += CLAMP_NEAR * ratio * ratio + CLAMP * half / body->length;
+    }
+    return sum;
+}
+
 /* Of a bar's frequencies that the blow excites: as a stiffness it counts twice. */
 static double theory_of(const struct body *body, const struct site *site, double duration)
 {
@@ -182,7 +200,7 @@ static double theory_of(const struct body *body, const struct site *site, double
     if (without_shear(body))
         return EULER_BERNOULLI * ratio;
     bool hutchinson = body->shear_rule == SHEAR_HUTCHINSON || body->shear_rule == SHEAR_ABSENT;
-    return hutchinson ? HUTCHINSON * ratio * ratio : COWPER * ratio;
+    return (hutchinson ? HUTCHINSON * ratio * ratio : COWPER * ratio) + clamps_of(body, site);
 }
 
 static double force_of(const struct problem *problem, size_t contact, const struct model_blow *blow)

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests catalogue/catalogue.c and revision.c: the shipped catalogue, a foreign one, what changes
+/* Tests catalogue/catalogue.c: the shipped catalogue, a foreign one, what changes
  * the revision, and that no text whatever does harm. */
 #include <locale.h>
 #include <math.h>

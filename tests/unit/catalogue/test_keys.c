@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests catalogue/keys.c, reader.c, names.c and content.c: every kind of error in a well-formed
+/* Tests catalogue/keys.c, reader.c, names.c and catalogue.c: every kind of error in a well-formed
  * document, with its line and what is allowed. */
 #include "parse.h"
 
