@@ -358,10 +358,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     /* options that all commands share */
     case ARGP_KEY_INIT:
-        state->child_inputs[0] = &compare->scene;
-        state->child_inputs[1] = compare->common;
-        state->child_inputs[2] = &compare->plot;
-        state->child_inputs[3] = &compare->columns;
+        measured_scene_inputs(
+            state, (void *[]){&compare->scene, compare->common, &compare->plot, &compare->columns});
         return 0;
     /* the output */
     case KEY_CSV:
@@ -389,11 +387,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
-                                             {&common_argp, 0, NULL, 0},
-                                             {&plot_argp, 0, NULL, 0},
-                                             {&measured_file_argp, 0, NULL, 0},
-                                             {0}};
 const struct argp compare_argp = {
     .options = options,
     .parser = parse,
@@ -407,7 +400,7 @@ const struct argp compare_argp = {
         "from which the others follow. Separators are commas, semicolons, tabs or blanks; units "
         "may stand in the names, as in speed [mm/s]. percuss(1) says more.\n"
         "Example: percuss compare measured.csv --a steel-sphere --b al-beam --plot measured.svg",
-    .children = children,
+    .children = measured_scene_children,
 };
 
 static int report(const struct compare *compare, const struct comparison *comparison)

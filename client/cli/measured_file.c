@@ -4,6 +4,8 @@
 #include "measured_file.h"
 
 #include "cli.h"
+#include "plot.h"
+#include "scene.h"
 
 enum { KEY_COLUMN = OPTION_OWN + 50 };
 
@@ -28,6 +30,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 const struct argp measured_file_argp = {.options = options, .parser = parse};
+
+const struct argp_child measured_scene_children[5] = {{&scene_argp, 0, NULL, 0},
+                                                      {&common_argp, 0, NULL, 0},
+                                                      {&plot_argp, 0, NULL, 0},
+                                                      {&measured_file_argp, 0, NULL, 0},
+                                                      {0}};
+
+void measured_scene_inputs(struct argp_state *state, void *const inputs[4])
+{
+    for (int i = 0; i < 4; i++)
+        state->child_inputs[i] = inputs[i];
+}
 
 void measured_file_complain(const char *option, const struct measured_remarks *remarks)
 {

@@ -13,6 +13,11 @@
 /* Parses --column into the `struct column_map` that is its input. */
 extern const struct argp measured_file_argp;
 
+/* The children of commands that ask for a scene, plot it and read files of measurements: scene,
+ * common, plot, measured file. And their inputs, in that order, at ARGP_KEY_INIT. */
+extern const struct argp_child measured_scene_children[5];
+void measured_scene_inputs(struct argp_state *state, void *const inputs[4]);
+
 /* Prints all that is to be said of a file to stderr, an error or a note a line; `option` stands
  * before each, or "". */
 void measured_file_complain(const char *option, const struct measured_remarks *remarks);

@@ -334,10 +334,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     /* options that all commands share */
     case ARGP_KEY_INIT:
-        state->child_inputs[0] = &query->scene;
-        state->child_inputs[1] = query->common;
-        state->child_inputs[2] = &query->plot;
-        state->child_inputs[3] = &query->columns;
+        measured_scene_inputs(
+            state, (void *[]){&query->scene, query->common, &query->plot, &query->columns});
         return 0;
     /* the impact */
     case KEY_SPEED:
@@ -380,11 +378,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
-                                             {&common_argp, 0, NULL, 0},
-                                             {&plot_argp, 0, NULL, 0},
-                                             {&measured_file_argp, 0, NULL, 0},
-                                             {0}};
 const struct argp query_argp = {
     .options = options,
     .parser = parse,
@@ -392,7 +385,7 @@ const struct argp query_argp = {
         "Asks for one impact: A moves at speed V straight at B, which is at rest, and hits it at "
         "the bodies' default sites; or whatever a JSON request says.\v"
         "Example: percuss query --a steel-sphere --b al-beam --speed 0.3 --at 0.25",
-    .children = children,
+    .children = measured_scene_children,
 };
 
 /* Everything that a query asks. */

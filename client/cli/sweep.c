@@ -432,10 +432,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     /* options that all commands share */
     case ARGP_KEY_INIT:
-        state->child_inputs[0] = &sweep->scene;
-        state->child_inputs[1] = sweep->common;
-        state->child_inputs[2] = &sweep->plot;
-        state->child_inputs[3] = &sweep->measured.columns;
+        measured_scene_inputs(state, (void *[]){&sweep->scene, sweep->common, &sweep->plot,
+                                                &sweep->measured.columns});
         return 0;
     /* the speeds */
     case KEY_SPEED:
@@ -462,11 +460,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
-                                             {&common_argp, 0, NULL, 0},
-                                             {&plot_argp, 0, NULL, 0},
-                                             {&measured_file_argp, 0, NULL, 0},
-                                             {0}};
 const struct argp sweep_argp = {
     .options = options,
     .parser = parse,
@@ -476,7 +469,7 @@ const struct argp sweep_argp = {
            "Examples: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv\n"
            "percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz "
            "--contact-model closed-form --speed 0.05:0.5:19 --plot rods.svg",
-    .children = children,
+    .children = measured_scene_children,
 };
 
 /* All curves under way. */
