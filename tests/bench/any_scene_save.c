@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Scenes as files. Every number has 17 digits, which read back as the same bits. */
+#include <string.h>
+
 #include "any_scene.h"
 #include "percuss/vocabulary.h"
 
@@ -41,6 +43,12 @@ static void write_bar(FILE *file, const struct body *body)
                 body->shear_rule == SHEAR_COWPER ? "cowper" : "hutchinson");
 }
 
+/* A broad beam, which is a block to the solver. */
+static bool is_strip(const struct body *body)
+{
+    return body->kind != &beam_kind && strcmp(body->kind->name, beam_kind.name) == 0;
+}
+
 static void write_body(FILE *file, const struct body *body)
 {
     fprintf(file, "  %s: {shape: %s, material: of-%s", body->id, body->kind->name, body->id);
@@ -52,7 +60,7 @@ static void write_body(FILE *file, const struct body *body)
         fprintf(file, ", radius: %.17g", body->radius);
     if (body->kind == &cylinder_kind)
         fprintf(file, ", length: %.17g", body->length);
-    if (body_is_flexible(body))
+    if (body_is_flexible(body) || is_strip(body))
         write_bar(file, body);
     fprintf(file, "}\n");
 }

@@ -127,7 +127,7 @@ settings "tables: tables" "store: $work/specimens.db"
     time_histories
     many_impacts
 } >"$record"
-# a warning's command has the paths of this run, and a daemon says which one it is
-sed -i "s|$work|WORK|g; s|^\\(percuss: that is the catalogue [^ ]*\\) of percussd .*|\\1|" "$record"
+# a warning's command has the paths of this run and of its build, and a daemon says which one it is
+sed -i "s|$work|WORK|g; s|$build|BUILD|g; s|^\\(percuss: that is the catalogue [^ ]*\\) of percussd .*|\\1|" "$record"
 [ "${PERCUSS_IN_PROCESS:-}" ] || stop_daemon
 echo "$(grep -c '^{"asked"\|^== percuss' "$record") questions, $(wc -c <"$record") bytes in $record"
