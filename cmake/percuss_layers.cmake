@@ -4,7 +4,7 @@
 # percuss_layer(<folder of service/> LINKS <lower layers and libraries>): one static library a folder.
 function(percuss_layer name)
   cmake_parse_arguments(LAYER "" "" "LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/service/${name}/*.c)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/service/${name}/*.c ${PROJECT_SOURCE_DIR}/service/${name}/*/*.c)
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/service ${PROJECT_SOURCE_DIR}/idl)
   target_link_libraries(${name} PUBLIC ${LAYER_LINKS} m)

@@ -44,7 +44,7 @@ for folder in service/*/; do
     layer=$(basename "$folder")
     list=$(allowed "$layer")
     [ -n "$list" ] || complain "$folder is in no layer: add it to tests/layers.sh and docs/architecture.md"
-    for file in "$folder"*.c "$folder"*.h; do
+    for file in "$folder"*.[ch] "$folder"*/*.[ch]; do
         [ -e "$file" ] || continue
         checked=$((checked + 1))
         for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
@@ -69,7 +69,7 @@ for folder in service/*/; do
 done
 
 # no module (a .c and a .h of one name) includes itself round: the shortest way through each that does
-rounds=$(for file in service/*/*.[ch] client/*/*.[ch] client/include/*/*.h; do
+rounds=$(for file in service/*/*.[ch] service/*/*/*.[ch] client/*/*.[ch] client/include/*/*.h; do
     sed -n 's/^ *# *include *["<]\([^">]*\)[">].*/\1/p' "$file" | sed "s|^|$file |"
 done | awk '
     function module(path) { sub(/\.[ch]$/, "", path); return path }
@@ -105,7 +105,7 @@ $rounds"
 only() {
     pattern=$1
     owner=$2
-    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)[/.]")
+    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] service/*/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)[/.]")
     [ -z "$found" ] || complain "<$pattern> outside $owner: $found"
 }
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'

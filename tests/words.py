@@ -12,8 +12,6 @@ INCLUDE = re.compile(r'^ *# *include *"([^"]*)"', re.MULTILINE)
 # a number with a name of its own in a file that estimates or bounds errors
 TUNED = re.compile(r"^static const (?:double|int|unsigned|size_t) [A-Z]\w* = [^;]*;|^ *[A-Z]\w* = -?[0-9.][^,}]*",
                    re.MULTILINE)
-ERROR_CONTROL = ("attempt mode_search step_search first_steps sequence sequence_compare fewer nearby law_error "
-                 "model_error model_perturbed model_deviation model_shift mode_share concurrent_search validity loss").split()
 
 
 def read(folders):
@@ -60,9 +58,8 @@ def main():
     alone = [header for header in headers if len(outside[header]) == 1]
     known = {}
     deepest = max(depth(path, includes, known) for path in service)
-    error_control = [path for path in service if path.stem in ERROR_CONTROL or "error" in path.parent.parts[-1:]]
-    tuned = sum(len(TUNED.findall(service[path])) for path in error_control
-                if path.suffix == ".c" or path.stem == "calibration")
+    error_control = [path for path in service if path.parent.name == "error"]
+    tuned = sum(len(TUNED.findall(service[path])) for path in error_control)
     print(f"service: {len(service)} files, {sum(lengths)} lines, median {statistics.median(lengths):.0f}")
     print(f"service: {len(modules)} modules; {len(alone)} of {len(headers)} headers have one outside includer; "
           f"include depth {deepest}")

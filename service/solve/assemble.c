@@ -8,7 +8,7 @@
 
 #include "impact/oscillator.h"
 #include "model/damping.h"
-#include "solve/mode_share.h"
+#include "solve/mode_choice.h"
 #include "solve/radiation.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
@@ -146,7 +146,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     /* without those of a mesh that hardly take part: families of bars are what a place excites */
     assembly->offered[add->body] += group->count;
     if (body_is_solid(add->problem->bodies[add->body]) &&
-        !mode_share_leave_out(add->problem, add->state, add->family, &source, group))
+        !mode_choice_leave_out(add->problem, add->state, add->family, &source, group))
         return false;
     if (group->count == 0)
         return true;

@@ -10,11 +10,10 @@
 #include "fe/complete_body.h"
 #include "fe/complete_converge.h"
 #include "model/vector.h"
-#include "solve/impulse_error.h"
-#include "solve/loss.h"
-#include "solve/model_error.h"
+#include "solve/error/impulses.h"
+#include "solve/error/law.h"
+#include "solve/error/models.h"
 #include "solve/report.h"
-#include "solve/unstated.h"
 #include "solve/validity.h"
 
 /* Elements across the contact radius: of the finest mesh, which costs half a minute. */
@@ -289,15 +288,15 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     fill_bodies(problem, &convergence->result, result);
     fill_model(convergence, problem, result);
     fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
-    struct model_blow blow = {.duration = convergence->result.end_time};
+    struct model_impact blow = {.duration = convergence->result.end_time};
     for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
         blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
     double e = result->contacts[0].restitution;
     double range = result->complete ? fmax(e, 1.0 - e) : 2.0;
-    const struct unstated_blow whole = {blow.force, .rebound = fabs(e), .range = range};
+    const struct unstated_impact whole = {blow.force, .rebound = fabs(e), .range = range};
     double yield = unstated_change(problem, 0, &whole);
     double model =
-        model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) + yield;
+        models_complete_error(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) + yield;
     report_model_error(model, yield, range, result);
     impulse_error_alone(problem, result);
     /* where small strains end, and what materials lose of themselves */

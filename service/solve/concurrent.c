@@ -54,9 +54,9 @@ static void adopt(struct solution *solution, const struct problem *problem,
         solution->steps.energy_closes &&
         solution->steps.restitution + solution->modes.restitution <= problem->tolerance;
     /* what the modal solutions say is of another contact model */
-    nearby_begin(&solution->nearby, problem, answer);
+    neighbours_begin(&solution->neighbours, problem, answer);
     for (unsigned k = 0; k < SWING_PHASES / 2; k++)
-        nearby_add(&solution->nearby, problem, &search->latest[k]);
+        neighbours_add(&solution->neighbours, problem, &search->latest[k]);
 }
 
 enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,

@@ -6,7 +6,7 @@
 #include "base/watch.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
-#include "solve/model_shift.h"
+#include "solve/error/deviation.h"
 #include "solve/placement.h"
 #include "solve/vibration.h"
 
@@ -22,7 +22,7 @@ enum percuss_status formulate(struct problem *problem, const struct solve_means 
     if (!status)
         status = compliance_choose(problem, means->catalogue->compliance, fault);
     if (!status)
-        status = model_shift_apply(problem, fault);
+        status = deviation_shift(problem, fault);
     return status;
 }
 
@@ -33,6 +33,6 @@ bool formulation_revise(struct problem *problem, const struct scene *scene,
     bool laws = contact_model_revise(problem, outcome);
     bool revised = laws || compliance_revise(problem, scene, outcome);
     if (laws)
-        model_shift_apply(problem, &lost);
+        deviation_shift(problem, &lost);
     return revised;
 }

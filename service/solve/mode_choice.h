@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* How many modes of a body a scene needs. */
+/* How many modes of a body a scene needs, and which of them. Of a mesh's, which are all in one
+ * family, a place may excite a few only: those along a bar, or those that bend it in one plane. */
 #ifndef PERCUSS_SOLVE_MODE_CHOICE_H
 #define PERCUSS_SOLVE_MODE_CHOICE_H
 
@@ -26,5 +27,17 @@ struct mode_choice {
  * that it was asked of on the way. */
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
                          const struct scene *scene, size_t body, size_t family, double *compliance);
+
+/* Leaves out of a group of `family`, with its participations, the modes that hardly take
+ * part and that do not vibrate in `state` (NULL: at rest), with all their effects; *source becomes
+ * the group of those that stay. The others move e by less than 1e-4 of the tolerance over 2
+ * e, in a single blow. False: out of memory. */
+bool mode_choice_leave_out(const struct problem *problem, const struct body_state *state,
+                           size_t family, const struct prepared_group **source,
+                           struct scene_group *group);
+
+/* Whether the slow modes of a body that a contact's load acts on get so much that sub-impacts are
+ * to be expected. */
+bool mode_choice_returns(const struct problem *problem, size_t contact, size_t body, size_t family);
 
 #endif

@@ -12,12 +12,10 @@
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/contact_model.h"
-#include "solve/law_error.h"
-#include "solve/loss.h"
+#include "solve/error/law.h"
+#include "solve/error/state.h"
 #include "solve/radiation.h"
-#include "solve/start_error.h"
 #include "solve/state_out.h"
-#include "solve/unstated.h"
 #include "solve/validity.h"
 
 void report_warn(struct solve_result *result, const char *format, ...)
@@ -267,12 +265,13 @@ static const char *reason_of_error(const struct problem *problem, const struct s
 static void warn_range(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
-    const struct nearby *nearby = &solution->nearby;
+    const struct neighbours *neighbours = &solution->neighbours;
     size_t widest = 0;
     double width = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        if (nearby->high[c] - nearby->low[c] > width) { /* false: NAN, it has no restitution */
-            width = nearby->high[c] - nearby->low[c];
+        if (neighbours->high[c] - neighbours->low[c] >
+            width) { /* false: NAN, it has no restitution */
+            width = neighbours->high[c] - neighbours->low[c];
             widest = c;
         }
     if (!(width > 0.0))
@@ -282,20 +281,21 @@ static void warn_range(const struct problem *problem, const struct solution *sol
     report_warn(result,
                 "contacts[%zu].restitution: %.*g: solutions near this one span %.*g to %.*g",
                 widest, digits, outcome_restitution(problem, &solution->outcome, widest), digits,
-                nearby->low[widest], digits, nearby->high[widest]);
+                neighbours->low[widest], digits, neighbours->high[widest]);
 }
 
 /* Counts that they do not confirm. */
 static void warn_counts(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    const struct nearby *nearby = &solution->nearby;
+    const struct neighbours *neighbours = &solution->neighbours;
     for (size_t c = 0; c < problem->contact_count; c++)
-        if (nearby->fewest[c] != nearby->most[c])
+        if (neighbours->fewest[c] != neighbours->most[c])
             report_warn(result,
                         "contacts[%zu].sub_impact_count: %zu: uncertain: solutions near this one "
                         "count %zu to %zu",
-                        c, solution->outcome.tracks[c].count, nearby->fewest[c], nearby->most[c]);
+                        c, solution->outcome.tracks[c].count, neighbours->fewest[c],
+                        neighbours->most[c]);
 }
 
 static void fill_errors(const struct problem *problem, const struct solution *solution,

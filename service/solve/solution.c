@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/attempt.h"
-#include "solve/first_steps.h"
+#include "solve/error/attempt.h"
+#include "solve/error/calibration.h"
 #include "solve/formulation.h"
 
 /* Less of the effort allowed than a step costs at most. */
@@ -15,7 +15,7 @@ static const double SPENT = 1e-3;
 /* Relative: so that the highest mode is below the cut that it gives. */
 static const double ROUNDING = 1e-12;
 /* Relative change of the speeds for a derivative, and the accuracy that it needs: what steps leave
- * of a restitution (step_search.c) changes it by 3e-4 of e over the speed then. */
+ * of a restitution (refine_steps.c) changes it by 3e-4 of e over the speed then. */
 static const double SPEED_STEP = 1e-5;
 static const double DERIVATIVE_ACCURACY = 1e-9;
 
@@ -47,7 +47,7 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-/* SEQUENCE_FACTOR is for so many other solutions. */
+/* FACTOR_COMPARED is for so many other solutions. */
 static const double OTHERS = 4.0;
 
 /* How many times its largest distance from the n others a solution may be wrong by. Of a long
@@ -55,10 +55,10 @@ static const double OTHERS = 4.0;
  * 3^4 times if there are four, within a sixth/3^(4/n - 1) if there are n. */
 static double distance_factor(const struct attempt_context *context, const struct attempt *best)
 {
-    double others = (double)context->nearby->solutions - 1.0;
+    double others = (double)context->neighbours->solutions - 1.0;
     if (!attempt_is_long(best) || others < 1.0 || others >= OTHERS)
-        return SEQUENCE_FACTOR;
-    return SEQUENCE_FACTOR * pow(3.0, OTHERS / others - 1.0);
+        return FACTOR_COMPARED;
+    return FACTOR_COMPARED * pow(3.0, OTHERS / others - 1.0);
 }
 
 /* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
@@ -67,8 +67,8 @@ static void widen(const struct attempt_context *context, const struct attempt *b
                   struct solution *solution)
 {
     struct mode_error *modes = &solution->modes;
-    double distance = nearby_distance(context->nearby, context->problem, &best->outcome);
-    bool alone = context->nearby->solutions < 2;
+    double distance = neighbours_distance(context->neighbours, context->problem, &best->outcome);
+    bool alone = context->neighbours->solutions < 2;
     double error = alone && !unknown ? 0.0 : distance_factor(context, best) * distance;
     error = fmax(error, unknown ? context->problem->tolerance : 0.0) - solution->steps.restitution;
     if (error > modes->restitution) {
@@ -104,11 +104,12 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->spent = context->work < SPENT * allowed;
     solution->work = context->work;
     /* what was cut off was compared with nothing */
-    bool unknown = solution->modes.unchecked || solution->steps.unchecked || attempt_is_spent(best);
+    bool unknown = solution->modes.verdict == MODES_UNCHECKED || solution->steps.unchecked ||
+                   attempt_is_spent(best);
     solution->tolerance_met =
         solution->steps.energy_closes && !unknown &&
         solution->steps.restitution + solution->modes.restitution <= context->problem->tolerance;
-    solution->farther = solution->tolerance_met ? SEQUENCE_FACTOR : distance_factor(context, best);
+    solution->farther = solution->tolerance_met ? FACTOR_COMPARED : distance_factor(context, best);
     if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
         widen(context, best, unknown, solution);
     /* what sequences amplify beyond all bounds */
@@ -122,21 +123,21 @@ static void conclude(const struct attempt_context *context, const struct attempt
 static enum percuss_status search(struct attempt_context *context, struct solution *solution)
 {
     const struct problem *problem = context->problem;
-    bool sequence = mode_search_expects_sequence(problem);
-    /* but for the lists of those nearby, which the first solution begins */
-    memset(solution, 0, offsetof(struct solution, nearby));
-    solution->nearby.solutions = 0;
+    bool sequence = refinement_expects_sequence(problem);
+    /* but for the lists of those neighbours, which the first solution begins */
+    memset(solution, 0, offsetof(struct solution, neighbours));
+    solution->neighbours.solutions = 0;
     solution->restitution_by_speed = NAN;
     /* steps as the tolerance asks for to begin with, and as many modes */
-    struct attempt best = {
-        .accuracy = first_steps_accuracy(problem->tolerance, sequence, problem->contact_count > 1),
-        .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
-    enum percuss_status status = mode_search(context, &best, &solution->modes);
+    struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
+                                                              problem->contact_count > 1),
+                           .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
+    enum percuss_status status = refine_modes(context, &best, &solution->modes);
     if (status)
         return status;
     /* as short steps, unless there is nothing to solve */
     if (!best.outcome.always_overlapped)
-        status = step_search(context, &best, &solution->modes, &solution->steps);
+        status = refine_steps(context, &best, &solution->modes, &solution->steps);
     /* and what the speed does */
     if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
         status = find_conditioning(context, &best, &solution->restitution_by_speed);
@@ -150,7 +151,7 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
 static bool make_scene(const struct problem *problem, const struct solution_model *model,
                        struct solution *solution)
 {
-    const struct mode_choice choice = {.cut = model->cut, .most = MODE_SEARCH_MOST};
+    const struct mode_choice choice = {.cut = model->cut, .most = REFINEMENT_MOST_MODES};
     struct assembly *assembly = arena_take(problem->arena, 1, sizeof *assembly);
     struct scene *scene = arena_take(problem->arena, 1, sizeof *scene);
     bool made = assembly && scene && assemble(assembly, problem, &choice) &&
@@ -164,7 +165,7 @@ static bool make_scene(const struct problem *problem, const struct solution_mode
 static enum percuss_status run(struct attempt_context *context, const struct solution_model *model,
                                struct solution *solution)
 {
-    bool sequence = mode_search_expects_sequence(context->problem);
+    bool sequence = refinement_expects_sequence(context->problem);
     struct attempt attempt = {.accuracy = model->accuracy,
                               .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
     if (!solution->scene && !make_scene(context->problem, model, solution))
@@ -185,7 +186,7 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
             .arena = arena,
             .pace = pace,
             .work = attempt_work_allowed(problem->request->options.method),
-            .nearby = &solution->nearby,
+            .neighbours = &solution->neighbours,
         };
         enum percuss_status status =
             model ? run(&context, model, solution) : search(&context, solution);

@@ -1,15 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The solution of a problem: as many modes (mode_search.h) and as short time steps (step_search.h)
- * as the tolerance on the restitution asks for, or a model of both that is given. */
+/* The solution of a problem: as many modes (refine_modes.h) and as short time steps
+ * (refine_steps.h) as the tolerance on the restitution asks for, or a model of both that is given.
+ */
 #ifndef PERCUSS_SOLVE_SOLUTION_H
 #define PERCUSS_SOLVE_SOLUTION_H
 
 #include "base/watch.h"
-#include "solve/mode_search.h"
-#include "solve/nearby.h"
-#include "solve/step_search.h"
+#include "solve/error/neighbours.h"
+#include "solve/error/refinement.h"
 
 /* What a search settles on: enough to solve the same problem again, or ones like it. */
 struct solution_model {
@@ -32,10 +32,10 @@ struct solution {
     double start;                /* of the restitution: the states' own errors, start_error.h */
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
-    bool spent;           /* the effort allowed ended the search */
-    double work;          /* that it left of it (impact.h) */
-    double farther;       /* times its distance from those beside it an answer may be wrong by */
-    struct nearby nearby; /* the answer, and those that it was compared with */
+    bool spent;     /* the effort allowed ended the search */
+    double work;    /* that it left of it (impact.h) */
+    double farther; /* times its distance from those beside it an answer may be wrong by */
+    struct neighbours neighbours; /* the answer, and those that it was compared with */
 };
 
 /* Solves until the estimated error fits the tolerance or the effort allowed is spent, or once by a

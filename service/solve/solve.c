@@ -9,11 +9,11 @@
 
 #include "solve/complete.h"
 #include "solve/concurrent.h"
+#include "solve/error/impulses.h"
+#include "solve/error/models.h"
+#include "solve/error/state.h"
 #include "solve/formulation.h"
-#include "solve/impulse_error.h"
-#include "solve/model_error.h"
 #include "solve/report.h"
-#include "solve/start_error.h"
 #include "solve/tracing.h"
 
 struct solve_workspace {
@@ -134,7 +134,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     struct model_error model;
     struct start_error start = {0};
     if (!status)
-        status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
+        status = pace_fault(&result->fault, models_find_error(problem, solution, &pace, &model));
     if (!status && !concurrent)
         status = pace_fault(&result->fault, start_error_find(problem, solution, &pace, &start));
     if (!status) {

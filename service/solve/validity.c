@@ -12,11 +12,9 @@
 #include "model/vector.h"
 #include "solve/askew.h"
 #include "solve/contact_model.h"
-#include "solve/law_error.h"
-#include "solve/loss.h"
-#include "solve/model_deviation.h"
+#include "solve/error/deviation.h"
+#include "solve/error/law.h"
 #include "solve/outcome.h"
-#include "solve/unstated.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
 static const double LARGEST_CONTACT = 0.3;
@@ -306,9 +304,9 @@ static void find_sliding(const struct problem *problem, const struct impact_outc
 static void find_rigid(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t c, struct warnings *warnings)
 {
-    const struct model_blow blow = model_blow_of(problem, outcome, c);
+    const struct model_impact blow = model_impact_of(problem, outcome, c);
     for (unsigned which = 0; which < 2; which++) {
-        double rings = model_deviation_side(problem, c, (int)which, &blow);
+        double rings = deviation_of_rigid(problem, c, (int)which, &blow);
         const struct body *body = problem_body(problem, c, (int)which);
         bool ball = body_solid(body).form == SOLID_BALL;
         if (rings > problem->tolerance && !ball)
@@ -355,9 +353,9 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
-    askew_find(problem, c, model_blow_of(problem, outcome, c).duration, warnings);
+    askew_find(problem, c, model_impact_of(problem, outcome, c).duration, warnings);
     if (unstated_any(problem, c)) {
-        struct unstated_blow blow = unstated_blow_of(problem, outcome, c);
+        struct unstated_impact blow = unstated_impact_of(problem, outcome, c);
         unstated_find(problem, c, &blow, warnings);
     }
 }

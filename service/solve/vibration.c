@@ -7,9 +7,9 @@
 
 #include "model/mesh_family.h"
 #include "model/ritz.h"
-#include "solve/model_deviation.h"
+#include "solve/error/deviation.h"
 
-/* What a body may keep of the restitution and stay rigid, in tolerances. */
+/* Share of the restitution that a body may keep and stay rigid, in tolerances. */
 static const double KEPT = 0.1;
 /* And whatever the tolerance: the unknown compliance of a compact body does as much. */
 static const double LEAST_KEPT = 2e-5;
@@ -26,8 +26,8 @@ static bool matters(const struct problem *problem, size_t body)
         for (int which = 0; which < 2; which++) {
             if (problem->sides[c][which].body != body)
                 continue;
-            struct model_blow blow = model_blow_fastest(problem, c);
-            if (model_deviation_side(problem, c, which, &blow) > kept)
+            struct model_impact blow = model_impact_fastest(problem, c);
+            if (deviation_of_rigid(problem, c, which, &blow) > kept)
                 return true;
         }
     return false;

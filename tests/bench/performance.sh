@@ -61,8 +61,8 @@ PARTS
 # the same costs by what they are for
 solve_purposes() {
     cat <<'PARTS'
-the answer and its modes|mode_search|sequence_compare
-estimate of its error|sequence_compare step_search|
+the answer and its modes|refine_modes|refinement_compare
+estimate of its error|refinement_compare refine_steps|
 the models' error|model_error_find|
 PARTS
 }

@@ -7,7 +7,7 @@
 #include "model/vector.h"
 #include "physics/estimates/drawn.h"
 #include "solve/assemble.h"
-#include "solve/attempt.h"
+#include "solve/error/attempt.h"
 #include "solve/formulation.h"
 #include "solve/state_out.h"
 

@@ -6,15 +6,16 @@
 #define PERCUSS_TEST_SEARCH_LAB_H
 
 #include "physics/support.h"
+#include "solve/error/calibration.h"
+#include "solve/error/neighbours.h"
+#include "solve/error/refinement.h"
 #include "solve/formulation.h"
-#include "solve/mode_search.h"
-#include "solve/nearby.h"
 
 struct search {
     struct lab *lab;
     struct prepared_cache *cache;
     struct arena arena;
-    struct nearby nearby;
+    struct neighbours neighbours;
     struct attempt_context context;
 };
 
@@ -59,7 +60,7 @@ static inline struct attempt_context *search_begin(struct search *search,
         .problem = problem,
         .arena = &search->arena,
         .work = attempt_work_allowed(PERCUSS_METHOD_MODAL),
-        .nearby = &search->nearby,
+        .neighbours = &search->neighbours,
     };
     return &search->context;
 }

@@ -1,0 +1,499 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/error/law.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/family.h"
+#include "contact/hertz.h"
+#include "contact/law_closed_form.h"
+#include "contact/plastic.h"
+#include "percuss/plausible.h"
+#include "solve/contact_model.h"
+#include "solve/error/calibration.h"
+#include "solve/outcome.h"
+
+/* ---- Laws that yield ---- */
+
+/* Restitution of the contact alone, from a depth: the root of the part of the work that comes back.
+ */
+static double restitution_from(const struct contact_law *law, double depth, double work)
+{
+    struct contact_law used = *law;
+    used.history = (struct contact_history){0};
+    contact_law_yield(&used, depth);
+    return sqrt(used.operations->stored(&used, contact_law_limit(&used)) / work);
+}
+
+double law_error_depth(const struct contact_law *law, double work)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    double d = curve->yield(law);
+    for (int i = 0; i < 60; i++) {
+        double slope;
+        double here = curve->work(law, d);
+        double change = log(work / here) * here / (curve->force(law, d, &slope) * d);
+        d *= exp(fmax(-3.0, fmin(change, 3.0)));
+        if (!(fabs(change) > 1e-9))
+            break;
+    }
+    return d;
+}
+
+/* How much less, or more, of the same work the contact gives back by the family. */
+static double against_family(const struct contact_law *law, const struct contact_law *family,
+                             double depth)
+{
+    double work = law->operations->curve->work(law, depth);
+    double other = law_error_depth(family, work);
+    if (!(other > family->operations->curve->yield(family)))
+        return 0.0;
+    double e = restitution_from(law, depth, work);
+    return fabs(restitution_from(family, other, work) / e - 1.0);
+}
+
+/* The closed form where there is no family to compare it with: it springs back by too little the
+ * deeper, the more the metal hardens and the more of the compliance is the other body's. Fitted to
+ * that comparison so that 96 of 100 random pairs (2600, 45 to 400 GPa, yields of 60 to 700 MPa,
+ * hardening 0 to 0.3, 2 to 1000 times the indentation of yield) are no further off; the median is
+ * 0.75 of it. */
+static double by_closed_form(double depth, double hardening, double share)
+{
+    double way = log(fmax(depth, 1.0));
+    return expm1(0.031 * pow(way, 1.8) * (1.0 + 4.0 * pow(hardening, 0.65)) * exp(-0.9 * share));
+}
+
+/* Small strains and parabolas. Of a sphere pressed flat the mean pressure falls from 2.84 yields by
+ * exp(-0.82 (a/R)^(-0.7)) of it (Jackson and Green, J. Tribology 127 (2005) 343; of a flat that is
+ * indented it falls less), and e grows with the hardness to the power 5/8 (Johnson, Contact
+ * Mechanics, 1985, section 11.5). */
+static double by_size(double ratio)
+{
+    return ratio > 0.0 ? 0.625 * exp(-0.82 * pow(ratio, -0.7)) : 0.0;
+}
+
+/* Tables are of flat surfaces; a ball that yields bears less and springs back less, both by the
+ * first power of w = (contact radius / its own radius). Its free surface falls away under the edge
+ * by the angle w: of the mean pressure of slip lines, 2 k (1 + pi/2), 2 k w is lost (Johnson 1985,
+ * section 6.2), as far as yield and not hardening bears it, at Tabor's strain of 0.2 w. And the
+ * pole approaches the centre by F ((1 + nu)/4 + (1 - nu^2)/2) / (pi E R) less than that of a
+ * half-space by the depth (Tatara, J. Eng. Mater. Technol. 113 (1991) 285, at small contacts): so
+ * much less of F (1 - nu^2)/(2 E a) is stored, and e^2 with it, by the ball's share of the
+ * compliance. */
+static double lost_pressure(const struct material *soft, double w)
+{
+    double borne = soft->yield / (soft->yield + 0.2 * w * soft->tangent);
+    return 0.625 * borne * w / (1.0 + M_PI_2);
+}
+
+static double lost_storage(const struct material *soft, double share, double w)
+{
+    return 0.5 * share * w * M_2_PI * (0.5 + 0.25 / (1.0 - soft->poisson));
+}
+
+/* Root mean square of a surface's principal curvatures: 1/R of a sphere. */
+static double roundness(const struct site *site)
+{
+    double squares = 0.0;
+    for (int i = 0; i < 9; i++)
+        squares += site->curvature[i] * site->curvature[i];
+    return sqrt(0.5 * squares);
+}
+
+/* Share of one of its bodies in the compliance of a contact. */
+static double compliance_share(const struct material *const materials[2], int side)
+{
+    double own[2];
+    for (int i = 0; i < 2; i++)
+        own[i] = (1.0 - materials[i]->poisson * materials[i]->poisson) / materials[i]->young;
+    return own[side] / (own[0] + own[1]);
+}
+
+/* Of the balls that flow: that with the smaller radius loses the pressure of both. Balls that stay
+ * elastic store less as well. */
+static double by_roundness(const struct problem *problem, size_t contact, double contact_radius)
+{
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
+    const struct contact_side *sides = problem->sides[contact];
+    const struct material *m[2] = {problem_material(problem, contact, 0),
+                                   problem_material(problem, contact, 1)};
+    bool both = contact_family_both_yield(m[0], m[1]);
+    double pressure = 0.0, stored = 0.0;
+    for (int i = 0; i < 2; i++) {
+        double w = contact_radius * roundness(&sides[i].site);
+        if (i == choice->side || both)
+            pressure = fmax(pressure, lost_pressure(m[i], w));
+        stored += lost_storage(m[i], compliance_share(m, i), w);
+    }
+    return pressure + stored;
+}
+
+/* An elliptic contact yields like the sphere of equal stiffness under the ellipse's peak pressure.
+ * Flowing throughout, it has another area (law_closed_form.h); where flow begins it bears up
+ * to 1.79 yields of peak pressure, a circle 1.6 (hertz.h). */
+static double by_ellipse(const struct hertz_contact *hertz)
+{
+    const double *curvature = hertz->curvature;
+    if (hertz->axis_ratio >= HERTZ_CIRCULAR_RATIO)
+        return 0.0;
+    double radius = 0.5 / sqrt(curvature[0] * curvature[1]);
+    double area = log(radius / closed_form_radius(hertz) * hertz_pressure_ratio(hertz));
+    double slender = 1.0 - hertz->axis_ratio;
+    return 0.625 * (fabs(area) + slender * slender * log(1.79 / HERTZ_FIRST_YIELD));
+}
+
+/* The table itself: a family's is one between others. */
+static double by_table(const struct contact_choice *choice, double depth)
+{
+    double beyond = depth / contact_law_table_range(&choice->plastic);
+    double error = beyond > 1.0 ? LAW_BEYOND * log10(beyond) : 0.0;
+    error += LAW_DEEP * log10(fmax(depth / (30.0 * choice->yield), 1.0));
+    if (!choice->family)
+        return error + LAW_OWN_TABLE + contact_curves_error(choice->plastic.table);
+    return error + LAW_FAMILY + LAW_OUTSIDE * choice->outside + (choice->both ? LAW_FAMILY : 0.0);
+}
+
+void law_error_parts(const struct problem *problem, size_t contact,
+                     const struct contact_history *history, double parts[2])
+{
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
+    /* size and shape */
+    const struct material *m[2] = {problem_material(problem, contact, 0),
+                                   problem_material(problem, contact, 1)};
+    const struct material *soft = m[choice->side];
+    double hardening = soft->tangent / soft->young;
+    parts[0] = by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
+               by_roundness(problem, contact, history->contact_radius) +
+               by_ellipse(&problem->hertz[contact]);
+    /* the law itself, against its reference */
+    if (choice->tabulated)
+        parts[1] = by_table(choice, history->max_indentation);
+    else if (!choice->compared.operations)
+        parts[1] = LAW_FAMILY + by_closed_form(history->max_indentation / choice->yield, hardening,
+                                               compliance_share(m, choice->side));
+    else
+        parts[1] = LAW_FAMILY +
+                   against_family(&choice->plastic, &choice->compared, history->max_indentation);
+}
+
+/* Of a contact that yielded; nothing of one that did not. */
+static void find_parts(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t contact, double parts[2])
+{
+    parts[0] = parts[1] = 0.0;
+    if (contact_model_yielded(problem, outcome, contact))
+        law_error_parts(problem, contact, &outcome->laws[contact].history, parts);
+}
+
+double law_error(const struct problem *problem, const struct impact_outcome *outcome,
+                 size_t contact)
+{
+    double parts[2];
+    find_parts(problem, outcome, contact, parts);
+    return parts[0] + parts[1];
+}
+
+const char *law_error_reason(const struct problem *problem, const struct impact_outcome *outcome,
+                             size_t contact)
+{
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
+    double parts[2];
+    find_parts(problem, outcome, contact, parts);
+    if (parts[0] > parts[1])
+        return "the dent is too large for small strains";
+    if (!choice->tabulated)
+        return choice->compared.operations ? "the closed form against tables of finite elements"
+                                           : "the closed form without tables to compare with";
+    return "the tables end before these materials or this depth";
+}
+
+/* To first order, by the slope between this yield stress and a slightly larger one. */
+double law_error_yield(const struct contact_law *law, double depth, double share)
+{
+    const double step = 0.05;
+    const double most = 3.0;
+    struct contact_law harder = contact_law_rescaled(law, 1.0, 1.0 + step);
+    double work = law->operations->curve->work(law, depth);
+    double e = restitution_from(law, depth, work);
+    double more = restitution_from(&harder, law_error_depth(&harder, work), work);
+    double slope = log(more / e) / log1p(step);
+    return slope > 0.0 ? fmin(exp(share / slope), most) : most;
+}
+
+double law_error_worst(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        worst = fmax(worst, law_error(problem, outcome, c));
+    return worst;
+}
+
+/* ---- Metals of unstated yield ---- */
+
+/* Yield strain that most metals have or exceed: the assumption of the model's error. */
+static const double ORDINARY = 0.002;
+/* And that hardly any exceeds: hardened steels yield at 2 GPa. */
+static const double STRONGEST = 0.01;
+/* A metal that would yield later than so many times the pressure at which the other body flows
+ * stays elastic (contact_family_both_yield). */
+static const double HARD_ENOUGH = 2.0;
+/* Share of a sub-impact's rebound from which on the next ones are others altogether. */
+static const double OTHERS = 0.05;
+
+static bool is_unstated(const struct problem *problem, size_t contact, int which)
+{
+    if (!problem_body(problem, contact, which)->yield_unstated)
+        return false;
+    const struct material *material = problem_material(problem, contact, which);
+    return isinf(material->yield) && plausible_metal(material->young, material->density);
+}
+
+/* Hertz's peak pressure at which the body yields: if it is ordinary where that is not stated. */
+static double bears(const struct problem *problem, size_t contact, int which)
+{
+    struct material material = *problem_material(problem, contact, which);
+    if (is_unstated(problem, contact, which))
+        material.yield = ORDINARY * material.young;
+    return closed_form_pressure(&material);
+}
+
+/* Restitution of the contact by itself, of `times` the energy at which the softer body yields. */
+static double given_back(const struct problem *problem, size_t contact, double pressure,
+                         double times)
+{
+    double modulus = problem->hertz[contact].effective_modulus;
+    return closed_form_restitution(times, pressure / HERTZ_FIRST_YIELD / modulus);
+}
+
+bool unstated_any(const struct problem *problem, size_t contact)
+{
+    return is_unstated(problem, contact, 0) || is_unstated(problem, contact, 1);
+}
+
+struct unstated_impact unstated_impact_of(const struct problem *problem,
+                                          const struct impact_outcome *outcome, size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    double compression = problem->impulse_compression[contact];
+    struct unstated_impact impact = {.force = outcome_peak_force(outcome, contact),
+                                     .rebound = outcome_rebound(problem, outcome, contact),
+                                     .range = outcome_range(problem, outcome)};
+    if (contact_model_yielded(problem, outcome, contact))
+        impact.depth = outcome->laws[contact].history.max_indentation /
+                       problem->contact_model.choices[contact].yield;
+    /* in a group the other contacts decide the order */
+    double first = track->count > 0 && problem->contact_count == 1 ? track->list[0].impulse : 0.0;
+    if (compression > 0.0)
+        impact.later = (track->impulse - first) / compression;
+    return impact;
+}
+
+double unstated_holds_above(const struct problem *problem, size_t contact, double force)
+{
+    if (!unstated_any(problem, contact))
+        return 0.0;
+    /* no more than the other body lets it become */
+    double pressure = hertz_peak_pressure(&problem->hertz[contact], force);
+    for (int which = 0; which < 2; which++)
+        if (!is_unstated(problem, contact, which))
+            pressure = fmin(pressure, HARD_ENOUGH * bears(problem, contact, which));
+    return pressure / HERTZ_FIRST_YIELD;
+}
+
+double unstated_change(const struct problem *problem, size_t contact,
+                       const struct unstated_impact *impact)
+{
+    if (!unstated_any(problem, contact))
+        return 0.0;
+    /* as the answer takes it, and with yields for all */
+    double now = INFINITY, then = INFINITY;
+    for (int which = 0; which < 2; which++) {
+        double pressure = bears(problem, contact, which);
+        then = fmin(then, pressure);
+        if (!is_unstated(problem, contact, which))
+            now = fmin(now, pressure);
+    }
+    /* energies over those of yield; that of Hertz's law goes by the fifth power of the pressure */
+    double peak = hertz_peak_pressure(&problem->hertz[contact], impact->force);
+    if (!(then < now) || !(peak > then || impact->depth > 1.0))
+        return 0.0;
+    bool flowed = impact->depth > 1.0;
+    double before = flowed ? pow(impact->depth, 2.5) : 1.0;
+    double after = flowed ? before * pow(now / then, 5.0) : pow(peak / then, 5.0);
+    double back = given_back(problem, contact, then, after);
+    if (flowed)
+        back /= given_back(problem, contact, now, before);
+    double share = fmax(1.0 - back, 0.0);
+    return fmin(share * impact->rebound + fmin(share / OTHERS, 1.0) * impact->later, impact->range);
+}
+
+double unstated_worst(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        if (!unstated_any(problem, c))
+            continue;
+        struct unstated_impact impact = unstated_impact_of(problem, outcome, c);
+        worst = fmax(worst, unstated_change(problem, c, &impact));
+    }
+    return worst;
+}
+
+static void add_stress(struct text *text, double stress)
+{
+    text_add_number(text, stress / 1e6, stress < 1e9 ? 3 : 4);
+}
+
+void unstated_explain(const struct problem *problem, const struct impact_outcome *outcome,
+                      struct text *text)
+{
+    double above = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        if (unstated_any(problem, c))
+            above = fmax(above, unstated_holds_above(problem, c, outcome_peak_force(outcome, c)));
+    if (!(above > 0.0))
+        return;
+    text_add(text, "; holds for metals that yield above ");
+    add_stress(text, above);
+    text_add(text, " MPa");
+}
+
+/* Names the metals of unstated yield, and the softest of them. Two bodies of one material are one
+ * omission.
+ */
+static const struct material *add_names(const struct problem *problem, size_t contact, double above,
+                                        struct text *text)
+{
+    const struct material *softest = NULL;
+    double lowest = INFINITY;
+    for (int which = 0; which < 2; which++) {
+        const struct material *material = problem_material(problem, contact, which);
+        double pressure = bears(problem, contact, which);
+        bool said = softest && strcmp(softest->name, material->name) == 0;
+        if (said || !is_unstated(problem, contact, which) ||
+            !(pressure < HERTZ_FIRST_YIELD * above))
+            continue;
+        text_add(text, softest ? " and " : "");
+        text_add(text, material->name);
+        text_add(text, " (");
+        text_add(text, problem_body(problem, contact, which)->id);
+        text_add(text, ")");
+        softest = pressure < lowest ? material : softest;
+        lowest = fmin(lowest, pressure);
+    }
+    return softest;
+}
+
+/* Put together by pieces: it is said of many answers, and formats take longer than short solves. */
+void unstated_find(const struct problem *problem, size_t contact,
+                   const struct unstated_impact *impact, struct warnings *warnings)
+{
+    double change = unstated_change(problem, contact, impact);
+    struct text text;
+    if (!(change > problem->tolerance) || !warnings_begin(warnings, WARNING_UNSTATED, &text))
+        return;
+    double above = unstated_holds_above(problem, contact, impact->force);
+    text_add(&text, "contacts[");
+    text_add_count(&text, contact);
+    text_add(&text, "]: no yield (or none) is stated of ");
+    const struct material *softest = add_names(problem, contact, above, &text);
+    text_add(&text, ": the answer holds for metals that yield above ");
+    add_stress(&text, above);
+    text_add(&text, " MPa");
+    if (softest && above > STRONGEST * softest->young) {
+        text_add(&text, ", which hardly any does (young/100: ");
+        add_stress(&text, STRONGEST * softest->young);
+        text_add(&text, " MPa)");
+    }
+    text_add(&text, "; at young/500 the restitution is off by up to ");
+    text_add_number(&text, change, 2);
+}
+
+/* ---- Losses of the materials ---- */
+
+/* No metal, glass or ceramic that bodies are made of is softer (lead: 16 GPa): softer ones are
+ * plastics, rubber, woods, foams. */
+static const double SOFT = 10e9;
+/* The least loss factor of those: 0.01 to 2 (Gerdeen, Lord, Rorrer, Engineering Design with
+ * Polymers and Composites, chapter 12). */
+static const double LEAST = 0.01;
+
+/* Share of one of its bodies in the indentation of a contact. */
+static double indentation_share(const struct problem *problem, size_t contact, int which)
+{
+    const struct material *const materials[2] = {problem_material(problem, contact, 0),
+                                                 problem_material(problem, contact, 1)};
+    return compliance_share(materials, which);
+}
+
+/* 1 - exp(-pi eta/2) of a rebound. */
+static double lost_rebound(double rebound, double loss_factor)
+{
+    return loss_factor > 0.0 ? rebound * -expm1(-M_PI_2 * loss_factor) : 0.0;
+}
+
+/* The body's part of the contact's loss factor, 0 where none is stated. */
+static double stated_loss(const struct problem *problem, size_t contact, int which)
+{
+    double loss_factor = problem_body(problem, contact, which)->loss_factor;
+    return isnan(loss_factor) ? 0.0 : indentation_share(problem, contact, which) * loss_factor;
+}
+
+double loss_of_contact(const struct problem *problem, size_t contact, double rebound)
+{
+    return lost_rebound(rebound,
+                        stated_loss(problem, contact, 0) + stated_loss(problem, contact, 1));
+}
+
+double loss_worst(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        worst = fmax(worst, loss_of_contact(problem, c, outcome_rebound(problem, outcome, c)));
+    return worst;
+}
+
+/* Of both bodies together more than the tolerance: each that has half of it or more. */
+static void find_stated_loss(const struct problem *problem, size_t contact, double rebound,
+                             struct warnings *warnings)
+{
+    double both = stated_loss(problem, contact, 0) + stated_loss(problem, contact, 1);
+    double whole = lost_rebound(rebound, both);
+    for (unsigned which = 0; which < 2 && whole > problem->tolerance; which++) {
+        const struct body *body = problem_body(problem, contact, (int)which);
+        if (stated_loss(problem, contact, (int)which) >= 0.5 * both)
+            warnings_add(
+                warnings, WARNING_LOSS + which,
+                "contacts[%zu]: what %s loses of itself in the contact (loss_factor %.3g) is not "
+                "in the answer: the restitution is lower by about %.2g; the tolerance is %.2g",
+                contact, body->id, body->loss_factor, whole, problem->tolerance);
+    }
+}
+
+static void find_unstated_loss(const struct problem *problem, size_t contact, double rebound,
+                               struct warnings *warnings)
+{
+    for (unsigned which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, contact, (int)which);
+        double young = problem_material(problem, contact, (int)which)->young;
+        if (!isnan(body->loss_factor) || !(young < SOFT))
+            continue;
+        double least =
+            lost_rebound(rebound, indentation_share(problem, contact, (int)which) * LEAST);
+        if (least > problem->tolerance)
+            warnings_add(warnings, WARNING_LOSS + which,
+                         "contacts[%zu]: materials as soft as that of %s (young %.3g Pa) lose "
+                         "energy of themselves, of the restitution %.2g or more: it is not in the "
+                         "answer; a loss_factor is not stated",
+                         contact, body->id, young, least);
+    }
+}
+
+void loss_find(const struct problem *problem, size_t contact, double rebound,
+               struct warnings *warnings)
+{
+    find_stated_loss(problem, contact, rebound, warnings);
+    find_unstated_loss(problem, contact, rebound, warnings);
+}

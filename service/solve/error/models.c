@@ -1,0 +1,474 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/error/models.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/plastic.h"
+#include "impact/tangent_group.h"
+#include "solve/askew.h"
+#include "solve/contact_model.h"
+#include "solve/error/attempt.h"
+#include "solve/error/calibration.h"
+#include "solve/error/law.h"
+#include "solve/outcome.h"
+#include "solve/validity.h"
+
+/* An answer, and the uncertain deviations of each of its contacts. */
+struct model_margin {
+    const struct problem *problem;
+    const struct solution *solution;
+    struct model_impact *impact; /* [contact] */
+    struct deviation *deviation; /* [contact] */
+};
+
+/* ---- Perturbed solutions: contacts softer and stiffer, and yielding earlier and later ---- */
+
+/* Work that a perturbed solution may take, in those of the answer. */
+static const double EFFORT = 3.0;
+
+/* The deviations of a perturbed solution: all contacts softer or stiffer, every other one so, or
+ * all yielding later or earlier. */
+struct perturbation {
+    bool alternate, flow;
+    double sign;
+};
+
+static void deviate(const struct model_margin *margin, const struct perturbation *direction,
+                    size_t c, struct contact_law *law, double *compliance)
+{
+    const struct deviation *deviation = &margin->deviation[c];
+    double sign = direction->alternate && c % 2 ? -direction->sign : direction->sign;
+    if (direction->flow) {
+        double depth = margin->impact[c].history.max_indentation;
+        if (!(deviation->yield > 0.0 && law->operations->curve))
+            return;
+        double yield = law_error_yield(law, depth, deviation->yield);
+        *law = contact_law_rescaled(law, 1.0, sign > 0.0 ? yield : 1.0 / yield);
+        return;
+    }
+    struct stiffening stiffer = deviation_stiffening(deviation, &margin->impact[c]);
+    *law = contact_law_rescaled(law, exp(sign * stiffer.force), 1.0);
+    *compliance += sign * stiffer.compliance;
+}
+
+static bool make_scene(const struct model_margin *margin, const struct perturbation *direction,
+                       struct scene *scene)
+{
+    size_t n = margin->problem->contact_count;
+    struct arena *arena = margin->problem->arena;
+    struct contact_law *laws = arena_take(arena, n, sizeof *laws);
+    double *residual = arena_take(arena, n * n, sizeof *residual);
+    if (!laws || !residual)
+        return false;
+    memcpy(laws, scene->laws, n * sizeof *laws);
+    memcpy(residual, scene->residual, n * n * sizeof *residual);
+    for (size_t c = 0; c < n; c++)
+        deviate(margin, direction, c, &laws[c], &residual[c * n + c]);
+    scene->laws = laws;
+    scene->residual = residual;
+    return true;
+}
+
+static bool by_finite_elements(const struct problem *problem)
+{
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    return contact_law_asked(asked)->method == CONTACT_CONCURRENT;
+}
+
+/* The perturbed solutions of an answer, which share the effort. */
+struct perturbed {
+    const struct model_margin *margin;
+    struct attempt_context context;
+    const struct impact_outcome *answer; /* that they are compared with */
+    struct scene scene;                  /* that they deviate from */
+};
+
+/* Distance of solutions from the answer; INFINITY: unknown. */
+struct distance {
+    double restitution; /* largest of a contact */
+    double *impulse;    /* [contact], N s */
+};
+
+/* Solves a scene, and widens the distance to its own. */
+static enum percuss_status solve_perturbed(struct perturbed *perturbed, const struct scene *scene,
+                                           struct attempt *attempt, struct distance *distance)
+{
+    const struct solution *solution = perturbed->margin->solution;
+    double left = perturbed->context.work;
+    double allowed = EFFORT * impact_work(solution->scene, &solution->outcome);
+    double before = distance->restitution;
+    distance->restitution = INFINITY;
+    if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
+        return PERCUSS_OK;
+    /* no more than a few times the answer's own effort, where that is of the same kind */
+    allowed = by_finite_elements(perturbed->margin->problem) ? left : fmin(left, allowed);
+    bool modal = perturbed->margin->problem->request->options.method == PERCUSS_METHOD_MODAL;
+    double longest = scene->contacts > 1 ? PERTURBED_STEPS_GROUP : PERTURBED_STEPS;
+    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? longest : 0.0),
+                                .assembly = solution->assembly,
+                                .care = IMPACT_CARE_ROUGH};
+    perturbed->context.work = allowed;
+    enum percuss_status status = attempt_run(&perturbed->context, attempt, scene);
+    perturbed->context.work += left - allowed;
+    if (status || attempt_is_spent(attempt) || attempt->outcome.always_overlapped)
+        return status;
+    const struct problem *problem = perturbed->margin->problem;
+    distance->restitution =
+        fmax(before, outcome_compare(problem, perturbed->answer, &attempt->outcome).restitution);
+    outcome_widen_impulses(problem, perturbed->answer, &attempt->outcome, distance->impulse);
+    return PERCUSS_OK;
+}
+
+/* The larger one of two distances along a direction and against it. */
+static enum percuss_status along(struct perturbed *perturbed, bool flow, struct distance *largest)
+{
+    bool group = perturbed->margin->problem->contact_count > 1;
+    for (int i = 0; i < 2 && !isinf(largest->restitution); i++) {
+        struct perturbation direction = {
+            .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
+        struct scene scene = perturbed->scene;
+        struct attempt attempt;
+        if (!make_scene(perturbed->margin, &direction, &scene))
+            return PERCUSS_INTERNAL;
+        enum percuss_status status = solve_perturbed(perturbed, &scene, &attempt, largest);
+        if (status)
+            return status;
+    }
+    return PERCUSS_OK;
+}
+
+static void widen(const struct problem *problem, const struct distance *spring,
+                  const struct distance *flow, double *restitution, double *impulse)
+{
+    double both = hypot(spring->restitution, flow->restitution);
+    *restitution = fmax(*restitution, BETWEEN * both);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double change = isinf(both) ? INFINITY : hypot(spring->impulse[c], flow->impulse[c]);
+        impulse[c] = fmax(impulse[c], BETWEEN * change);
+    }
+}
+
+/* Widens the error of e, and those of the contacts' impulses (N s), to the distance of the farthest
+ * perturbed solution. INFINITY: unknown. */
+static enum percuss_status find_perturbed(const struct model_margin *margin, struct pace *pace,
+                                          double *restitution, double *impulse)
+{
+    const struct problem *problem = margin->problem;
+    const struct solution *solution = margin->solution;
+    struct perturbed perturbed = {
+        margin,
+        {.problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work},
+        &solution->outcome,
+        {0}};
+    size_t n = problem->contact_count;
+    struct distance spring = {0.0, arena_take(problem->arena, n, sizeof *spring.impulse)};
+    struct distance flow = {0.0, arena_take(problem->arena, n, sizeof *flow.impulse)};
+    if (!spring.impulse || !flow.impulse ||
+        !attempt_truncate(problem, solution->scene, &solution->outcome, TRUNCATED_SEQUENCE,
+                          &perturbed.scene))
+        return PERCUSS_INTERNAL;
+    enum percuss_status status = PERCUSS_OK;
+    /* by finite elements in the contact: the law's own answer to compare with */
+    struct attempt base;
+    if (by_finite_elements(problem)) {
+        status = solve_perturbed(&perturbed, solution->scene, &base, &spring);
+        spring.restitution = isinf(spring.restitution) ? INFINITY : 0.0;
+        memset(spring.impulse, 0, n * sizeof *spring.impulse);
+        perturbed.answer = &base.outcome;
+    }
+    /* with other stiffnesses, and where metal flows with other yield stresses */
+    bool flows = false;
+    for (size_t c = 0; c < n; c++)
+        flows = flows || margin->deviation[c].yield > 0.0;
+    if (!status)
+        status = along(&perturbed, false, &spring);
+    if (!status && flows && !isinf(spring.restitution))
+        status = along(&perturbed, true, &flow);
+    widen(problem, &spring, &flow, restitution, impulse);
+    return status;
+}
+
+/* ---- The models' error ---- */
+
+/* Change of e by the stiffness's logarithm: by the speed it is known exactly for Hertz's law and
+ * bodies that were at rest, twice that by the speed's (k d^1.5 at s times the speed is k sqrt(s)
+ * d^1.5 at the same). */
+static double sensitivity(const struct model_margin *margin)
+{
+    const struct impact_energy *energy = &margin->solution->outcome.energy;
+    double by_speed = margin->solution->restitution_by_speed * margin->problem->gap_rate[0];
+    bool hertz = !contact_model_used(margin->problem)->curve;
+    if (hertz && isfinite(by_speed))
+        return fabs(2.0 * by_speed);
+    double share = (energy->vibration + energy->damping) / energy->available;
+    share = fmin(fmax(share, 0.0), 1.0); /* NAN: nothing was available */
+    return LOST * share + SWUNG * sqrt(share);
+}
+
+/* The parts of the error of a contact, as changes of its e. */
+
+static double by_stiffness(const struct model_margin *margin, size_t c)
+{
+    return sensitivity(margin) * deviation_stiffness(&margin->deviation[c], &margin->impact[c]);
+}
+
+static double by_flow(const struct model_margin *margin, size_t c)
+{
+    return margin->deviation[c].yield *
+           outcome_rebound(margin->problem, &margin->solution->outcome, c);
+}
+
+static double by_ringing(const struct model_margin *margin, size_t c)
+{
+    return deviation_ringing(margin->problem, c, &margin->impact[c]);
+}
+
+static double by_askew_bars(const struct model_margin *margin, size_t c)
+{
+    return askew_loss(margin->problem, c, margin->impact[c].duration);
+}
+
+/* By the energy that goes into waves of a bar's whole body. */
+static double by_waves(const struct model_margin *margin, size_t c)
+{
+    const struct problem *problem = margin->problem;
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    double compression = problem->impulse_compression[c];
+    double lost =
+        deviation_waves(problem, margin->solution->assembly, outcome, c, &margin->impact[c]);
+    if (!(compression > 0.0) || lost == 0.0)
+        return 0.0;
+    double rebound = fmax(fabs(outcome_restitution(problem, outcome, c)), LEAST_REBOUND);
+    double w = problem->w[c * (problem->contact_count + 1)];
+    return lost / (rebound * compression * compression * w);
+}
+
+/* In this order. Independent parts add by squares; those that the models lack altogether add. */
+static const struct part {
+    const char *name;
+    double (*of_contact)(const struct model_margin *margin, size_t c);
+    bool independent;
+} PARTS[] = {
+    {"stiffness of the contact", by_stiffness, true},
+    {"flow of the metal", by_flow, true},
+    {"ringing of bodies taken as rigid", by_ringing, true},
+    {"bars hit askew", by_askew_bars, false},
+    {"waves that no mode has", by_waves, false},
+};
+
+static double of_contact(const struct model_margin *margin, size_t c)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < sizeof PARTS / sizeof *PARTS; i++) {
+        double part = PARTS[i].of_contact(margin, c);
+        sum = PARTS[i].independent ? hypot(sum, part) : sum + part;
+    }
+    return sum;
+}
+
+/* As if there were one contact after which the bodies part. */
+static void single(const struct model_margin *margin, struct model_error *error)
+{
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    double waves = validity_wave_loss(margin->problem);
+    error->restitution = 0.0;
+    for (size_t c = 0; c < margin->problem->contact_count; c++) {
+        double change = of_contact(margin, c);
+        error->restitution = fmax(error->restitution, change);
+        error->impulse[c] = (change + waves) * outcome_impulse_scale(margin->problem, outcome, c);
+    }
+    error->restitution += waves;
+}
+
+/* All deviations of a contact's stiffness together, as they make it stiffer or softer. */
+static struct tangent_source source_of(const struct model_margin *margin, size_t c, double sign)
+{
+    const struct deviation *deviation = &margin->deviation[c];
+    struct stiffening stiffer = deviation_stiffening(deviation, &margin->impact[c]);
+    return (struct tangent_source){.force = sign * stiffer.force,
+                                   .compliance = sign * stiffer.compliance};
+}
+
+/* Effect of all deviations together, stiffer, by the orders along the answer. */
+struct by_orders {
+    double first, second;                 /* derivatives of e */
+    double strain;                        /* of a sub-impact's impulse; INFINITY: none is known */
+    double impulse[PERCUSS_MAX_CONTACTS]; /* derivatives of each, of a group */
+};
+
+/* Of several contacts, all of them stiffer, and every other one: the larger change. */
+static enum percuss_status follow_group(const struct model_margin *margin, struct pace *pace,
+                                        struct by_orders *orders)
+{
+    const struct problem *problem = margin->problem;
+    const struct solution *solution = margin->solution;
+    struct tangent_source source[2][PERCUSS_MAX_CONTACTS];
+    struct tangent_group tangent[2];
+    struct scene scene;
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        source[0][c] = source_of(margin, c, 1.0);
+        source[1][c] = source_of(margin, c, c % 2 ? -1.0 : 1.0);
+    }
+    if (!attempt_truncate(problem, solution->scene, &solution->outcome, TRUNCATED_FIRST_ORDER,
+                          &scene))
+        return PERCUSS_INTERNAL;
+    const struct tangent_group_task task = {&scene, solution->log, 2, {source[0], source[1]}};
+    enum percuss_status status = tangent_group_follow(&task, problem->arena, pace, tangent);
+    if (status)
+        return status;
+    orders->first = orders->second = 0.0;
+    orders->strain = fmax(tangent[0].strain, tangent[1].strain);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double compression = problem->impulse_compression[c];
+        double change = fmax(fabs(tangent[0].impulse[c]), fabs(tangent[1].impulse[c]));
+        orders->impulse[c] = change;
+        if (compression > 0.0)
+            orders->first = fmax(orders->first, change / compression);
+    }
+    return PERCUSS_OK;
+}
+
+/* Along the answer, as the search for modes left it or made now. NULL: out of memory. */
+static struct tangent_path *find_path(const struct model_margin *margin)
+{
+    const struct solution *solution = margin->solution;
+    struct scene scene;
+    if (solution->path)
+        return solution->path;
+    if (!attempt_truncate(margin->problem, solution->scene, &solution->outcome,
+                          TRUNCATED_FIRST_ORDER, &scene))
+        return NULL;
+    return tangent_path_create(&scene, solution->log, margin->problem->arena);
+}
+
+static enum percuss_status follow(const struct model_margin *margin, struct tangent_path *path,
+                                  bool curved, struct pace *pace, struct by_orders *orders)
+{
+    struct tangent_source source = source_of(margin, 0, 1.0);
+    struct tangent tangent;
+    source.curved = curved;
+    enum percuss_status status = tangent_follow(path, &source, pace, &tangent);
+    double compression = margin->problem->impulse_compression[0];
+    if (status)
+        return status;
+    orders->first = tangent.impulse / compression;
+    orders->second = tangent.curvature / compression;
+    orders->strain = tangent.strain;
+    return PERCUSS_OK;
+}
+
+/* Of a single contact: second order at once where the effect of the omitted modes lets expect that
+ * first order is not enough. */
+static enum percuss_status single_by_order(const struct model_margin *margin, struct pace *pace,
+                                           struct by_orders *orders, double *change)
+{
+    const struct solution *solution = margin->solution;
+    double all = deviation_stiffness(&margin->deviation[0], &margin->impact[0]);
+    double expected = solution->modes.strained * sensitivity(margin) * all;
+    if (!(all > 0.0) || expected > STRAIN_EXPECTED)
+        return PERCUSS_OK;
+    bool bends = solution->scene->laws[0].operations->three_halves;
+    bool curved = bends && expected > STRAIN_MODELS;
+    struct tangent_path *path = find_path(margin);
+    enum percuss_status status = follow(margin, path, curved, pace, orders);
+    if (!status && !curved && bends && orders->strain > STRAIN_MODELS &&
+        orders->strain <= STRAIN_MODELS_CURVED) {
+        curved = true;
+        status = follow(margin, path, curved, pace, orders);
+    }
+    if (!status && orders->strain <= (curved ? STRAIN_MODELS_CURVED : STRAIN_MODELS))
+        *change = fabs(orders->first) + 0.5 * fabs(orders->second);
+    return status;
+}
+
+/* Change of e, where first or second order tells it; INFINITY: neither does. */
+static enum percuss_status by_order(const struct model_margin *margin, struct pace *pace,
+                                    struct by_orders *orders, double *change)
+{
+    *change = INFINITY;
+    if (!margin->solution->log)
+        return PERCUSS_OK;
+    if (margin->problem->contact_count == 1)
+        return single_by_order(margin, pace, orders, change);
+    enum percuss_status status = follow_group(margin, pace, orders);
+    if (!status && orders->strain <= STRAIN_MODELS_GROUP)
+        *change = orders->first;
+    return status;
+}
+
+static bool is_sequence(const struct model_margin *margin)
+{
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    return margin->problem->contact_count > 1 || outcome->tracks[0].count > 1;
+}
+
+/* As sequences amplify it: along the answer where that will do. */
+static enum percuss_status amplify(const struct model_margin *margin, struct pace *pace,
+                                   struct model_error *error)
+{
+    struct by_orders orders;
+    double change;
+    enum percuss_status status = by_order(margin, pace, &orders, &change);
+    if (status)
+        return status;
+    if (!isfinite(change))
+        return find_perturbed(margin, pace, &error->restitution, error->impulse);
+    error->restitution = fmax(error->restitution, BETWEEN * change);
+    for (size_t c = 0; margin->problem->contact_count > 1 && c < margin->problem->contact_count;
+         c++)
+        error->impulse[c] = fmax(error->impulse[c], BETWEEN * orders.impulse[c]);
+    return PERCUSS_OK;
+}
+
+enum percuss_status models_find_error(const struct problem *problem,
+                                      const struct solution *solution, struct pace *pace,
+                                      struct model_error *error)
+{
+    /* the deviations of each contact */
+    size_t n = problem->contact_count;
+    struct model_margin margin = {
+        .problem = problem,
+        .solution = solution,
+        .impact = arena_take(problem->arena, n, sizeof *margin.impact),
+        .deviation = arena_take(problem->arena, n, sizeof *margin.deviation),
+    };
+    if (!margin.impact || !margin.deviation)
+        return PERCUSS_INTERNAL;
+    for (size_t c = 0; c < n; c++) {
+        margin.impact[c] = model_impact_of(problem, &solution->outcome, c);
+        margin.deviation[c] = deviation_of(problem, c, &margin.impact[c]);
+    }
+    /* as of one impact, and of a sequence of them */
+    enum percuss_status status = PERCUSS_OK;
+    single(&margin, error);
+    if (is_sequence(&margin))
+        status = amplify(&margin, pace, error);
+    /* losses of the materials themselves, and of metals of unstated yield */
+    double loss = loss_worst(problem, &solution->outcome);
+    double yield = unstated_worst(problem, &solution->outcome);
+    double range = outcome_range(problem, &solution->outcome);
+    double elastic = fmin(error->restitution + loss, range);
+    error->restitution = fmin(error->restitution + loss + yield, range);
+    error->yield = error->restitution - elastic;
+    for (size_t c = 0; c < n; c++)
+        error->impulse[c] += (loss + yield) * outcome_impulse_scale(problem, &solution->outcome, c);
+    return status;
+}
+
+double models_complete_error(const struct problem *problem, const struct model_impact *impact)
+{
+    double axes[2];
+    double sum = 0.0;
+    hertz_ellipse(&problem->hertz[0], impact->force, axes);
+    for (int which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, 0, which);
+        double ratio = axes[0] / body_smallest_radius(body);
+        sum += (LOST + SWUNG) * PATCH * ratio * ratio;
+        if (body_solid(body).approximate)
+            sum += deviation_ringing(problem, 0, impact);
+    }
+    return sum;
+}

@@ -1,0 +1,192 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/solve/error/law.c: how much lower a restitution is for what materials lose of
+ * themselves, against contacts that are integrated with it, and where it is said. */
+#include "physics/support.h"
+
+#define ACRYLIC ((struct material){"acrylic", 3.2e9, 0.37, 1190.0, INFINITY, 0.0})
+#define RUBBER  ((struct material){"rubber", 5e6, 0.49, 1100.0, INFINITY, 0.0})
+
+static struct solve_result result;
+
+static bool warns(const char *words)
+{
+    for (size_t i = 0; i < result.warning_count; i++)
+        if (strstr(result.warnings[i], words))
+            return true;
+    return false;
+}
+
+static struct body lossy(struct body body, double loss_factor)
+{
+    body.loss_factor = loss_factor;
+    return body;
+}
+
+/* A ball on a wall, at 1 m/s; the restitution that the model says it may be off by. */
+static double off_by(struct body ball, struct body wall, double tolerance)
+{
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", ball);
+    lab_add(lab, "wall", wall);
+    struct solve_request request = strike(sphere_spot("ball", ball.radius), wall_spot("wall"), 1.0);
+    request.options.tolerance = tolerance;
+    lab_solve(lab, &request, &result);
+    lab_free(lab);
+    return result.restitution_model;
+}
+
+/* What the loss adds to that. */
+static double lost(struct material material, double loss_factor)
+{
+    struct body ball = make_sphere(material, 0.015);
+    double without = off_by(ball, rigid_wall(), 1e-3);
+    return off_by(lossy(ball, loss_factor), rigid_wall(), 1e-3) - without;
+}
+
+/* Restitution of x'' = -x - eta x', in contact while x > 0, or of Hertz's contact with the
+ * viscosity that gives eta at pi over its duration T: x'' = -x^1.5 - 1.5 (eta T/pi) x^0.5 x',
+ * T = 2.9432 x_max/v, x_max = (1.25 v^2)^0.4 (Kuwabara and Kono 1987), while it presses. Runge and
+ * Kutta's steps. */
+static double push(bool hertz, double eta, double x, double v)
+{
+    double viscosity = eta * 2.9432 * pow(1.25, 0.4) / M_PI;
+    if (!hertz)
+        return -x - eta * v;
+    return x > 0.0 ? fmin(-pow(x, 1.5) - 1.5 * viscosity * sqrt(x) * v, 0.0) : 0.0;
+}
+
+static double integrate(bool hertz, double eta)
+{
+    const double h = 1e-4;
+    double x = 0.0, v = 1.0;
+    do {
+        double a1 = push(hertz, eta, x, v);
+        double a2 = push(hertz, eta, x + 0.5 * h * v, v + 0.5 * h * a1);
+        double a3 = push(hertz, eta, x + 0.5 * h * (v + 0.5 * h * a1), v + 0.5 * h * a2);
+        double a4 = push(hertz, eta, x + h * (v + 0.5 * h * a2), v + h * a3);
+        x += h * (v + h * (a1 + a2 + a3) / 6.0);
+        v += h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0;
+    } while (x > 0.0);
+    return -v;
+}
+
+/* Of a spring that loses as much in every cycle at its own frequency, exactly to first order;
+ * Hertz's contact with a viscosity loses 13 % more of little. */
+static void as_contacts_that_are_integrated(void **state)
+{
+    (void)state;
+    for (double eta = 0.01; eta < 0.5; eta *= 3.0) {
+        double spring = 1.0 - integrate(false, eta), hertz = 1.0 - integrate(true, eta);
+        double said = lost(ACRYLIC, eta);
+        print_message("loss factor %.2f: a spring %.4f, Hertz's %.4f, said %.4f\n", eta, spring,
+                      hertz, said);
+        near(said, 1.0 - exp(-0.5 * M_PI * eta), 1e-12);
+        near_relative(said, spring, 0.02);
+        near_relative(said, hertz, 0.15);
+    }
+}
+
+/* Each body by its share of the indentation. */
+static void shares_of_both(void **state)
+{
+    (void)state;
+    const double eta = 0.1;
+    struct body ball = make_sphere(ACRYLIC, 0.015), wall = make_body(&half_space_kind, ACRYLIC);
+    double without = off_by(ball, wall, 1e-3);
+    double one = off_by(lossy(ball, eta), wall, 1e-3) - without;
+    double both = off_by(lossy(ball, eta), lossy(wall, eta), 1e-3) - without;
+    double rebound = result.contacts[0].impulse / result.contacts[0].impulse_compression - 1.0;
+    assert_true(rebound < 1.0); /* waves leave */
+    near_relative(both / one, expm1(-0.5 * M_PI * eta) / expm1(-0.25 * M_PI * eta), 1e-9);
+    near_relative(both, rebound * -expm1(-0.5 * M_PI * eta), 0.05);
+    /* what is stiff is hardly indented */
+    struct body anvil = make_body(&half_space_kind, STEEL);
+    double stiff = off_by(ball, lossy(anvil, eta), 1e-3) - off_by(ball, anvil, 1e-3);
+    near_relative(stiff / one, 2.0 * 3.2 / 210.0 * 0.91 / (1.0 - 0.37 * 0.37), 0.06);
+}
+
+static void stated_losses_are_told(void **state)
+{
+    (void)state;
+    struct body ball = make_sphere(ACRYLIC, 0.015), steel = make_sphere(STEEL, 0.015);
+    struct body wall = make_body(&half_space_kind, ACRYLIC);
+    struct body anvil = make_body(&half_space_kind, STEEL);
+    off_by(lossy(ball, 0.05), anvil, 1e-3);
+    assert_true(warns("contacts[0]: what ball loses of itself in the contact (loss_factor 0.05) is "
+                      "not in the answer: the restitution is lower by about 0.07"));
+    assert_true(warns("; the tolerance is 0.001"));
+    assert_false(warns("what wall loses") || result.total_met);
+    /* those that matter */
+    off_by(lossy(steel, 1e-4), lossy(wall, 0.05), 1e-3);
+    assert_true(warns("what wall loses") && !warns("what ball loses"));
+    off_by(lossy(ball, 0.05), lossy(wall, 0.05), 1e-3);
+    assert_true(warns("what wall loses") && warns("what ball loses"));
+    /* as much as was asked for */
+    off_by(lossy(ball, 0.05), anvil, 0.1);
+    assert_false(warns("loses of itself"));
+    off_by(lossy(steel, 1e-4), rigid_wall(), 1e-3);
+    assert_int_equal(result.warning_count, 0);
+    off_by(lossy(steel, 1e-4), rigid_wall(), 1e-4);
+    assert_true(warns("loss_factor 0.0001) is not in the answer: the restitution is lower by about "
+                      "0.00016"));
+}
+
+/* What nobody stated is told of materials that are known to lose something, without a number that
+ * nobody knows. */
+static void unstated_losses_are_told_of_what_is_soft(void **state)
+{
+    (void)state;
+    struct body anvil = lossy(make_body(&half_space_kind, STEEL), NAN);
+    struct body glass = lossy(make_sphere(GLASS, 0.015), NAN);
+    struct body ball = make_sphere(ACRYLIC, 0.015), rubber = make_sphere(RUBBER, 0.015);
+    double nothing = off_by(ball, anvil, 1e-3);
+    assert_int_equal(result.warning_count, 0); /* 0 is a statement */
+    assert_true(off_by(lossy(ball, NAN), anvil, 1e-3) == nothing);
+    assert_true(warns("contacts[0]: materials as soft as that of ball (young 3.2e+09 Pa) lose "
+                      "energy of themselves, of the restitution 0.015 or more: it is not in the "
+                      "answer; a loss_factor is not stated"));
+    off_by(lossy(ball, NAN), anvil, 0.02);
+    assert_int_equal(result.warning_count, 0);
+    off_by(lossy(rubber, NAN), anvil, 1e-3);
+    assert_true(warns("as soft as that of ball (young 5e+06 Pa)"));
+    off_by(glass, anvil, 1e-3);
+    assert_false(warns("soft"));
+    /* beside rubber hardly anything else is indented */
+    off_by(lossy(rubber, 0.0), lossy(make_body(&half_space_kind, ACRYLIC), NAN), 1e-3);
+    assert_false(warns("soft"));
+}
+
+/* What a rod keeps as vibration comes back less: what it gives back is lowered. */
+static void a_rod_gives_back_less(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", lossy(make_sphere(STEEL, 0.015), 0.1));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.3);
+    lab_solve(lab, &request, &result);
+    const struct sub_impact *blow = &result.contacts[0].sub_impacts[0];
+    assert_int_equal(result.contacts[0].sub_impact_count, 1);
+    char expected[128];
+    double back =
+        (blow->impulse - blow->compression_impulse) / result.contacts[0].impulse_compression;
+    double own = 0.91 / 210.0, other = (1.0 - 0.33 * 0.33) / 70.0;
+    snprintf(expected, sizeof expected, "lower by about %.2g;",
+             back * -expm1(-0.05 * M_PI * own / (own + other)));
+    assert_true(back < 0.95 && warns(expected));
+    lab_free(lab);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_contacts_that_are_integrated),
+        cmocka_unit_test(shares_of_both),
+        cmocka_unit_test(stated_losses_are_told),
+        cmocka_unit_test(unstated_losses_are_told_of_what_is_soft),
+        cmocka_unit_test(a_rod_gives_back_less),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
