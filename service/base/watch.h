@@ -19,7 +19,7 @@ struct watch {
 };
 
 /* Asks a watch once in so much work: the modes of a contact step or an interval of a flight, some
- * 20 ns each, are the unit, see impact/step_cost.h. */
+ * 20 ns each, are the unit, see impact/impact_scale.h. */
 struct pace {
     const struct watch *watch; /* borrowed */
     double work;               /* since it was asked */

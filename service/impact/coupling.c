@@ -5,27 +5,9 @@
 
 #include <string.h>
 
-#include "base/vector_clones.h"
 #include "impact/kernel.h"
 #include "impact/motion.h"
-
-/* Up to so many contacts what modes do is kept with their oscillators: each with itself by way of
- * two bodies, and each pair by way of as many that both touch. A scene must not ask for more than
- * are kept. */
-enum { FEW_KEPT = 3 };
-_Static_assert(FEW_KEPT *(FEW_KEPT + 1) <= RESPONSE_PAIRS, "blocks in use are not given away");
-
-/* Fewer modes are as quick to sum as to find. */
-enum { LEAST_KEPT = 2 * LANES };
-
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-#define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
-
-/* A contact's four nodes, wherever they lie. */
-typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
-#define QUAD(at)       (*(quad *)(at))
-#define CONST_QUAD(at) (*(const quad *)(at))
+#include "impact/simd.h"
 
 static bool share_modes(const struct scene *scene, size_t a, size_t b)
 {
@@ -56,25 +38,6 @@ static void find_pairs(struct coupling *coupling, const struct scene *scene)
     coupling->blocks = coupling->by_modes ? n : count;
 }
 
-/* Where the modes' part of each block is kept. False: out of memory. */
-static bool find_kept(struct coupling *coupling, const struct scene *scene, struct arena *arena)
-{
-    coupling->kept = arena_take(arena, scene->groups * coupling->blocks, sizeof *coupling->kept);
-    if (!coupling->kept)
-        return false;
-    for (size_t a = 0; a < scene->contacts; a++)
-        for (size_t p = coupling->first[a]; p <= coupling->own[a]; p++)
-            for (size_t g = 0; g < scene->groups; g++) {
-                const struct scene_group *group = &scene->group[g];
-                const double *rows[2] = {group->participation[a],
-                                         group->participation[coupling->pairs[p].other]};
-                if (rows[0] && rows[1] && group->stride >= LEAST_KEPT)
-                    coupling->kept[p * scene->groups + g] =
-                        responses_find(&group->set->responses, rows, group->stride);
-            }
-    return true;
-}
-
 bool coupling_create(struct coupling *coupling, const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts;
@@ -87,8 +50,8 @@ bool coupling_create(struct coupling *coupling, const struct scene *scene, struc
         return false;
     find_pairs(coupling, scene);
     if (!coupling->by_modes)
-        return scene->groups == 0 || n > FEW_KEPT || find_kept(coupling, scene, arena);
-    /* room for what a group's modes bear and do */
+        return true;
+    /* room for the forces on a group's modes and their answer */
     for (size_t g = 0; g < scene->groups; g++)
         longest = scene->group[g].stride > longest ? scene->group[g].stride : longest;
     coupling->thrust = arena_reserve(arena, NODES * longest, sizeof(double));
@@ -108,40 +71,18 @@ static void rigid_block(double w, double residual, double h, double by[STEP_POIN
     }
 }
 
-/* The same sum as it is kept. */
-static void add_kept(struct response *kept, const struct scene_group *group, int level,
-                     const double *const rows[2], double by[STEP_POINTS][NODES])
-{
-    bool known;
-    double(*block)[NODES] = response_block(kept, level, &known);
-    if (!known)
-        kernel_response(group->set->tables[level], group->stride, rows[0], rows[1], block);
-    for (int i = 0; i < STEP_POINTS; i++)
-        for (int j = 0; j < NODES; j++)
-            by[i][j] += block[i][j];
-}
-
-/* Of force of b on a, the modes' part from where it is `kept`, [group]; NULL: nowhere. */
-static void fill_block(const struct scene *scene, int level, size_t a, size_t b,
-                       struct response *const *kept, double by[STEP_POINTS][NODES])
+void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
+                      double by[STEP_POINTS][NODES])
 {
     size_t at = a * scene->contacts + b;
     rigid_block(scene->w[at], scene->residual[at], step_length(level), by);
     /* the modes that move both */
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        const double *const rows[2] = {group->participation[a], group->participation[b]};
-        if (kept && kept[g])
-            add_kept(kept[g], group, level, rows, by);
-        else if (rows[0] && rows[1])
-            kernel_response(group->set->tables[level], group->stride, rows[0], rows[1], by);
+        const double *row = group->participation[a], *other = group->participation[b];
+        if (row && other)
+            kernel_response(group->set->tables[level], group->stride, row, other, by);
     }
-}
-
-void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
-                      double by[STEP_POINTS][NODES])
-{
-    fill_block(scene, level, a, b, NULL, by);
 }
 
 /* The block of b on a among those of a level, which are of all pairs. */
@@ -163,12 +104,6 @@ const struct coupling_block *coupling_between_two(const struct coupling *couplin
     return NULL;
 }
 
-static struct response *const *kept_of(const struct coupling *coupling, const struct scene *scene,
-                                       size_t block)
-{
-    return coupling->kept ? coupling->kept + block * scene->groups : NULL;
-}
-
 enum percuss_status coupling_prepare(struct coupling *coupling, const struct scene *scene,
                                      int level, struct arena *arena, struct pace *pace)
 {
@@ -181,11 +116,11 @@ enum percuss_status coupling_prepare(struct coupling *coupling, const struct sce
         return PERCUSS_INTERNAL;
     for (size_t a = 0; a < scene->contacts; a++) {
         size_t own = coupling->own[a];
-        fill_block(scene, level, a, a, kept_of(coupling, scene, own), blocks[own].by);
+        coupling_between(scene, level, a, a, blocks[own].by);
         /* W, the residual flexibility and the modes' products are symmetric */
         for (size_t p = coupling->first[a]; !coupling->by_modes && p < own; p++) {
             size_t b = coupling->pairs[p].other;
-            fill_block(scene, level, a, b, kept_of(coupling, scene, p), blocks[p].by);
+            coupling_between(scene, level, a, b, blocks[p].by);
             *find_block(coupling, blocks, b, a) = blocks[p];
         }
     }

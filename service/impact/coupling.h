@@ -1,16 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the contacts' forces on a step do to each other's approaches: through the rigid bodies, the
- * residual flexibility and the modes. Only pairs that share something are looked at. Few contacts
- * have a block of numbers for each pair; of many, the forces go to the modes and from there to the
- * contacts, so that a contact more costs its modes and not a block for each other one. */
+/* Effects of the contacts' forces on a step on each other's approaches: through the rigid bodies,
+ * the residual flexibility and the modes. Only pairs that share something are looked at. Few
+ * contacts have a block of numbers for each pair; of many, the forces go to the modes and from
+ * there to the contacts, so that a contact more costs its modes and not a block for each other one.
+ */
 #ifndef PERCUSS_IMPACT_COUPLING_H
 #define PERCUSS_IMPACT_COUPLING_H
 
 #include "base/arena.h"
 #include "base/watch.h"
-#include "impact/response.h"
 #include "impact/scene.h"
 
 /* Up to so many contacts blocks of pairs are cheaper than the way by the modes. */
@@ -34,7 +34,6 @@ struct coupling {
     size_t blocks;               /* of a level */
     size_t *own;                 /* [contact]: which block is its own */
     struct coupling_block *level[STEP_LEVELS]; /* NULL: not yet */
-    struct response **kept; /* [block][group], of few contacts; NULL, or an item: worked out anew */
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
 
@@ -57,7 +56,7 @@ static inline const struct coupling_block *coupling_own(const struct coupling *c
 const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
                                                   size_t a, size_t b);
 
-/* The same of any contacts, worked out anew. */
+/* The same of any contacts. */
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES]);
 

@@ -8,7 +8,6 @@
 
 #include "impact/flight_kernel.h"
 #include "impact/flight_root.h"
-#include "impact/flight_table.h"
 
 enum {
     /* Levels by which the first interval is tried longer than the shortest, one after another that

@@ -6,13 +6,11 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 
-#include "impact/fold.h"
+#include "impact/simd.h"
 
 typedef uint64_t bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
-
-#define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
 VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double *reach,
                                         double *bend)
@@ -314,4 +312,19 @@ VECTOR_CLONES double flight_kernel_loss(const struct flight_modes *modes, double
         total += (x * x + y * y) * lost + zeta * both;
     }
     return 0.5 * TOTAL(total);
+}
+
+const double *flight_table(struct oscillators *set, int level)
+{
+    if (!set->turns[level]) {
+        struct flight_modes modes = {.length = set->stride,
+                                     .damping = set->most_damping > 0.0 ? set->damping : NULL,
+                                     .omega = set->omega};
+        double *table = aligned_alloc(32, (set->stride + LANES) * TURN_TERMS * sizeof *table);
+        if (!table)
+            return NULL;
+        flight_kernel_table(&modes, step_length(level), table);
+        set->turns[level] = table;
+    }
+    return set->turns[level];
 }

@@ -8,6 +8,7 @@
 #define PERCUSS_IMPACT_FLIGHT_KERNEL_H
 
 #include "impact/scene.h"
+#include "impact/step_table.h"
 
 /* Modes seen by one contact. */
 struct flight_modes {
@@ -59,5 +60,9 @@ void flight_kernel_step(const double *table, const struct flight_modes *modes, d
 
 /* Energy that the dampers of damped modes take in that time, from q and v. */
 double flight_kernel_loss(const struct flight_modes *modes, double time);
+
+/* The map of a set's free motion over the step of a level (see flight_kernel_step), made when first
+ * asked for; belongs to the set. NULL: out of memory. */
+const double *flight_table(struct oscillators *set, int level);
 
 #endif

@@ -3,7 +3,7 @@
 
 /* Derivatives of undamped modes seen by a contact, and free motion by a table (flight_kernel.h),
  * for vectors of WIDTH lanes: flight_kernel.c includes this once for each width. Lanes have sums of
- * their own and are added in the order of fold.h, so that every width gives the same bits. */
+ * their own and are added in the order of simd.h, so that every width gives the same bits. */
 
 #define PARTS          (LANES / WIDTH)
 #define PART(array, k) (*(const VECTOR *)((array) + (k)))

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "impact/step_cost.h"
+#include "impact/impact_scale.h"
 
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena)
 {

@@ -3,10 +3,7 @@
 
 #include "impact/kernel.h"
 
-#include "impact/fold.h"
-
-#define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
+#include "impact/simd.h"
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
                                 const double *q, const double *v, double sums[STEP_POINTS])

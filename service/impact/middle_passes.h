@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Passes over undamped modes and sums (kernel.h) for a VECTOR of WIDTH lanes: kernel.c includes
- * this once for each width. Lanes have sums of their own and are added in the order of fold.h, so
+ * this once for each width. Lanes have sums of their own and are added in the order of simd.h, so
  * that every width gives the same bits. */
 
 #define PARTS            (LANES / WIDTH)

@@ -4,15 +4,391 @@
 /* The modal method: in a contact phase the forces at four Gauss nodes of a step are the only
  * unknowns, and the modes follow them exactly. */
 #include <math.h>
+#include <stdbool.h>
 
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
+#include "impact/impact.h"
+#include "impact/impact_scale.h"
 #include "impact/march.h"
 #include "impact/step_ends.h"
-#include "impact/step_knots.h"
-#include "impact/step_limits.h"
-#include "impact/step_values.h"
 #include "impact/yielding.h"
+
+/* What the accuracy asked for means to the steps of the modal method. */
+struct step_limits {
+    /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
+     * contact's force. The impulse converges with the eighth power of the step, the coefficient
+     * with the third, hence about accuracy^(3/8). */
+    double roughness;
+    /* The step in which a contact ends may be this part of its duration (impact_scale.h): the
+     * impulse within it is about its 5/2 power, and its end lies somewhere between the nodes. */
+    double event_share;
+    /* The one in which it begins: the nodes begin with it, and its force like t^(3/2), which they
+     * follow to a hundredth of their largest. */
+    double opening_share;
+    /* Both without and with projected ends (step_ends.h); event first. The latter 0: never. */
+    double plain[2], projected[2];
+    /* See step_limits_stable. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
+     * not; 0.02 closes it to 1e-11. */
+    double coupling;
+};
+
+/* omega h up to which a step of four nodes resolves a mode. */
+static const double RESOLVED = 4.0;
+
+/* Factor of accuracy^(1/5), and what the coupling is at most, so that the audit closes for any
+ * accuracy (see the header). */
+static const double COUPLING = 3.2;
+static const double CLOSEST = 0.25;
+
+/* What a care makes of the accuracy. */
+struct care_limits {
+    double roughness;      /* factor of accuracy^(2/5) */
+    double event, opening; /* of accuracy^(1/2) */
+    double roughest;       /* and what they come to at most: a force is a cubic to */
+    double longest_event, longest_opening; /* that, shares of a contact's duration */
+};
+
+/* With these the steps of a contact leave some 0.1 accuracy^0.8 in the restitution
+ * (docs/accuracy.md, error.restitution_time). Of a sequence's contact the steps between tell: those
+ * that begin and end it may be twice as long before e changes as much. With the steps of a single
+ * blow sequences would be met and wrong three times as often. Rough solutions of sequences of three
+ * were within 3e-3 of careful ones. */
+static const struct care_limits cares[IMPACT_CARES] = {
+    [IMPACT_CARE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
+    [IMPACT_CARE_BESIDE] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},
+    [IMPACT_CARE_SINGLE] = {0.8, 17.0, 42.0, 0.05, 0.2, 0.7},
+    [IMPACT_CARE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
+};
+
+/* Of several contacts with a sequence's care, which open and close all the time: a step that misses
+ * the beginning or the end of a force like t^(3/2) leaves little beside the others. Of 400 random
+ * groups on beams and as many rows of spheres, at accuracies of 1e-4 to 1e-9, these leave as much
+ * as a sequence's, by two thirds to four fifths of the steps. */
+static const struct care_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
+/* Beside the answer a contact begins and ends with steps longer than the answer's projected ones
+ * (below): with as long ones the two miss the same. */
+static const struct care_limits several_beside = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
+
+/* The largest force, on which all depends that flows, takes more care. */
+static bool is_elastic_group(const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->curve)
+            return false;
+    return scene->contacts > 1;
+}
+
+static struct step_limits step_limits_make(const struct scene *scene, double accuracy,
+                                           enum impact_care care)
+{
+    bool sequence = care == IMPACT_CARE_SEQUENCE || care == IMPACT_CARE_BESIDE;
+    bool together = sequence && is_elastic_group(scene);
+    const struct care_limits *limits = &cares[care];
+    if (together)
+        limits = care == IMPACT_CARE_BESIDE ? &several_beside : &several;
+    double root = pow(accuracy, 0.2);
+    double half = sqrt(accuracy);
+    return (struct step_limits){
+        .roughness = fmin(limits->roughest, limits->roughness * root * root),
+        .event_share = fmin(limits->longest_event, limits->event * half),
+        .opening_share = fmin(limits->longest_opening, limits->opening * half),
+        .coupling = fmin(CLOSEST, COUPLING * root),
+    };
+}
+
+/* The same where the ends are projected. What is left is most of all what the step after the first
+ * one misses of a force that began before it, and goes with the 5/2 power of their share: 1e-8 of
+ * the impulse of a sphere on a beam at an eighth. The restitution of sequences there comes half as
+ * far from what it converges to as with the other ends, by two steps for three. Not those beside an
+ * answer: with the same ends the two agree where both miss a sub-impact, and sequences of eight and
+ * more were met and wrong. */
+struct projected_ends {
+    double end; /* factor of accuracy^(3/10) */
+    double longest_event, longest_opening;
+};
+static const struct projected_ends projected[IMPACT_CARES] = {
+    [IMPACT_CARE_SEQUENCE] = {4.0, 0.125, 0.125},
+    [IMPACT_CARE_SINGLE] = {12.6, 0.4, 0.7},
+    [IMPACT_CARE_ROUGH] = {12.6, 0.4, 0.7},
+};
+
+/* Of several contacts with a sequence's care, which begin and end anywhere on each other's steps:
+ * the roughness of the others bounds these steps too. Of 200 random groups on beams these leave at
+ * tolerances of 1e-3 and 1e-4 what steps an eighth as long leave without projected ends. */
+static const struct projected_ends projected_several = {16.0, 0.25, 0.25};
+
+static bool may_project(const struct scene *scene, enum impact_care care)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (!scene->laws[c].operations->three_halves)
+            return false;
+    return care != IMPACT_CARE_BESIDE && (scene->contacts == 1 || is_elastic_group(scene));
+}
+
+/* Longer first and last steps where a scene's contacts are one, or a group that does not yield, and
+ * their forces there may be projected (step_ends.h). */
+static void step_limits_project(struct step_limits *limits, const struct scene *scene,
+                                const struct impact_settings *settings)
+{
+    enum impact_care care = settings->care;
+    if (!may_project(scene, care))
+        return;
+    bool together = scene->contacts > 1 && care == IMPACT_CARE_SEQUENCE;
+    const struct projected_ends *ends = together ? &projected_several : &projected[care];
+    double share = ends->end * pow(settings->accuracy, 0.3);
+    limits->plain[0] = limits->event_share;
+    limits->plain[1] = limits->opening_share;
+    limits->projected[0] = fmax(limits->event_share, fmin(ends->longest_event, share));
+    limits->projected[1] = fmax(limits->opening_share, fmin(ends->longest_opening, share));
+}
+
+/* Work of the acceleration on the way to the scale's indentation, over the approach's energy: from
+ * here on it counts. With the speed of the approach, indentation over duration, a contact comes
+ * back 2 speed/acceleration after its end: here after 40 durations. */
+static const double PRESSED = 0.1;
+
+/* A contact begins, with that scale: chooses the shares, and whether its ends are projected. What
+ * acceleration presses is back soon after its end, which a long step would not see. */
+static bool step_limits_open(struct step_limits *limits, const struct scene *scene, size_t contact,
+                             const struct impact_scale *scale)
+{
+    if (!(limits->projected[0] > 0.0))
+        return false;
+    double pressing =
+        2.0 * fabs(scene->gap_acceleration[contact]) * scale->duration * scale->duration;
+    bool projects = pressing <= PRESSED * scale->indentation;
+    const double *share = projects ? limits->projected : limits->plain;
+    limits->event_share = share[0];
+    limits->opening_share = share[1];
+    /* in a group from here on */
+    if (!projects && scene->contacts > 1)
+        limits->projected[0] = 0.0;
+    return projects;
+}
+
+/* Of one contact, as if the strongest mode of a body were the slowest that its steps do not
+ * resolve: a sequence's comparison with longer steps bears no longer ones. */
+static double stable_alone(const struct scene_group *group, const double *phi, double stiffness,
+                           double coupling)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < group->count; k++)
+        largest = phi[k] * phi[k] > largest ? phi[k] * phi[k] : largest;
+    /* phi^2 (dF/dd) h/omega <= coupling with omega = RESOLVED/h; or a step that resolves all */
+    double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
+    return fmax(coupled, RESOLVED / group->set->omega[group->count - 1]);
+}
+
+/* Of a contact among several, mode by mode: omega h <= RESOLVED or phi^2 (dF/dd) h/omega <=
+ * coupling. What stands for all omitted modes of a body at once is strong and far away. */
+static double stable_beside(const struct scene_group *group, const double *phi, double stiffness,
+                            double coupling)
+{
+    double longest = INFINITY;
+    for (size_t k = 0; k < group->count; k++) {
+        double omega = group->set->omega[k];
+        double pumped = phi[k] * phi[k] * stiffness;
+        if (omega * longest > RESOLVED && pumped * longest > coupling * omega)
+            longest = fmax(RESOLVED / omega, coupling * omega / pumped);
+    }
+    return longest;
+}
+
+/* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not
+ * resolve sees the law at four instants only and can be pumped by it. Its coupling to the contact
+ * within a step, phi^2 (dF/dd) h / omega, must then stay small. Long contacts on light bodies need
+ * this (hundreds of steps); an ordinary impact takes such steps anyway. */
+static double step_limits_stable(const struct scene *scene, size_t contact,
+                                 const struct impact_scale *scale, double coupling)
+{
+    double stiffness;
+    double longest = INFINITY;
+    contact_law_force(&scene->laws[contact], scale->indentation, &stiffness);
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *phi = group->participation[contact];
+        if (!phi || !group->count)
+            continue;
+        double of_group = scene->contacts > 1 ? stable_beside(group, phi, stiffness, coupling)
+                                              : stable_alone(group, phi, stiffness, coupling);
+        longest = fmin(longest, of_group);
+    }
+    return longest;
+}
+
+/* Steps that pass knots of an interpolated law. A force's third derivative jumps there: of its
+ * moments four nodes miss what goes with the fourth power of the step, where they miss the eighth
+ * of a smooth one. The indentation, on which the force acts by its double integral, stays smooth
+ * enough: it tells how the jumps go on, and that has moments. */
+
+/* The forces that are missed act on the approach, and so on themselves: by a tenth or less on a
+ * step that a contact's roughness allows. Until the last round changes them by so little. */
+enum { ROUNDS = 8 };
+static const double SMALL_CHANGE = 1e-2;
+
+/* The only contact on the step. */
+struct passage {
+    const struct contact_law *law;
+    const struct coupling_block *block;
+    double compliance;       /* c, in series with it */
+    const double *nodes;     /* indentations */
+    const double *stiffness; /* of the law at the nodes */
+    double least;            /* what a knot adds that counts, N */
+    double missed[NODES];    /* force by the moments less force at the node */
+};
+
+/* fmax is a call; this is for numbers. */
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* What a knot adds to the force behind it: a cube of the way from there times what goes like the
+ * force's slope. */
+static double behind(const struct contact_knot *knot, double d)
+{
+    double way = d - knot->indentation;
+    return knot->cube * (way * way * way) * sqrt(d / knot->indentation);
+}
+
+/* A knot is passed at a share of the step. What its force adds behind it, or takes before it, on
+ * the shorter side, as the other one is that and a smooth force: by the rule whose places the nodes
+ * are, on the cubic through them, divided by a node's weight as a cubic's moments are. */
+static void add_knot(struct passage *passage, const struct contact_knot *knot, double share)
+{
+    bool before = share < 0.5;
+    double length = before ? -share : 1.0 - share;
+    const double *nodes = passage->nodes;
+    for (int q = 0; q < NODES; q++) {
+        double s = share + length * collocation.node[q];
+        double by[NODES];
+        for (int j = 0; j < NODES; j++) {
+            const double *c = collocation.monomial[j];
+            by[j] = ((c[3] * s + c[2]) * s + c[1]) * s + c[0];
+        }
+        double d = (nodes[0] * by[0] + nodes[1] * by[1]) + (nodes[2] * by[2] + nodes[3] * by[3]);
+        double force = behind(knot, d) * length * collocation.weight[q];
+        for (int j = 0; j < NODES; j++)
+            passage->missed[j] += force * by[j] / collocation.weight[j];
+    }
+    for (int j = 0; j < NODES; j++)
+        if ((collocation.node[j] < share) == before)
+            passage->missed[j] += before ? behind(knot, nodes[j]) : -behind(knot, nodes[j]);
+}
+
+/* The share of the step with an indentation, where straight lines between the nodes have it. */
+static double share_of(const struct passage *passage, const double ends[2], double indentation)
+{
+    double before = 0.0;
+    double d = ends[0];
+    for (int j = 0; j <= NODES; j++) {
+        double after = j < NODES ? collocation.node[j] : 1.0;
+        double next = j < NODES ? passage->nodes[j] : ends[1];
+        if ((indentation - d) * (indentation - next) <= 0.0)
+            return before + (after - before) * (indentation - d) / (next - d);
+        before = after;
+        d = next;
+    }
+    return 1.0;
+}
+
+/* All knots that count. False: there is none. */
+static bool add_knots(struct passage *passage, const double ends[2])
+{
+    const struct plastic_curve *curve = passage->law->operations->curve;
+    struct contact_knot knots[CONTACT_KNOTS];
+    double from = ends[0];
+    bool any = false;
+    size_t found;
+    do {
+        found = curve->knots(passage->law, from, ends[1], knots);
+        for (size_t i = 0; i < found; i++) {
+            from = knots[i].indentation;
+            double way = -larger(-fabs(from - ends[0]), -fabs(ends[1] - from));
+            if (!(fabs(knots[i].cube) * (way * way * way) > passage->least))
+                continue;
+            add_knot(passage, &knots[i], share_of(passage, ends, from));
+            any = true;
+        }
+    } while (found == CONTACT_KNOTS);
+    return any;
+}
+
+/* By how much forces at the nodes lessen the indentation at one of them, or at the end. What a node
+ * has of the compliance itself is in its block. */
+static double lessen(const struct passage *passage, int node, const double force[NODES])
+{
+    const double *by = passage->block->by[node];
+    double sum = (by[0] * force[0] + by[1] * force[1]) + (by[2] * force[2] + by[3] * force[3]);
+    double stiffness = passage->stiffness[node < NODES ? node : NODES - 1];
+    if (node < NODES)
+        sum -= passage->compliance * force[node];
+    return sum / (1.0 + passage->compliance * stiffness);
+}
+
+/* change = missed - F' lessen(change), the law's answer to what they do. */
+static bool find_change(const struct passage *passage, double change[NODES])
+{
+    double most = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        change[j] = passage->missed[j];
+        most = larger(most, fabs(change[j]));
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        double last = 0.0;
+        double less[NODES];
+        for (int j = 0; j < NODES; j++)
+            less[j] = passage->stiffness[j] * lessen(passage, j, change);
+        for (int j = 0; j < NODES; j++) {
+            double next = passage->missed[j] - less[j];
+            last = larger(last, fabs(next - change[j]));
+            change[j] = next;
+        }
+        if (last <= SMALL_CHANGE * most)
+            return true;
+    }
+    return false;
+}
+
+/* After a step of a scene of one contact was solved, which began with an indentation `start`: where
+ * it passes knots, the forces at its nodes become those of the cubic with the moments, up to the
+ * third, of the law's force, and the indentations at nodes and end those under them. False: it
+ * passes none, or is not closed throughout; all stays as it is. */
+static bool step_knots_pass(struct contact_step *step, const struct scene *scene, int level,
+                            double start)
+{
+    double *nodes = step->indentation[0];
+    struct passage passage = {
+        .law = &scene->laws[0],
+        .block = coupling_own(&step->coupling, level, 0),
+        .compliance = scene->residual[0],
+        .nodes = nodes,
+        .stiffness = step->stiffness[0],
+    };
+    double change[NODES];
+    /* a law that has knots, in a contact that is closed throughout */
+    const struct plastic_curve *curve = passage.law->operations->curve;
+    if (!curve || !curve->knots || !(start > 0.0) || !(*step->end_indentation > 0.0))
+        return false;
+    for (int j = 0; j < NODES; j++)
+        if (!(nodes[j] > 0.0))
+            return false;
+    /* what the nodes miss, and what that does */
+    const double ends[2] = {start, *step->end_indentation};
+    passage.least = step->last_change * larger(step->force[0][0], step->force[0][NODES - 1]);
+    if (!add_knots(&passage, ends) || !find_change(&passage, change))
+        return false;
+    double less[STEP_POINTS];
+    for (int i = 0; i < STEP_POINTS; i++)
+        less[i] = lessen(&passage, i, change);
+    for (int j = 0; j < NODES; j++) {
+        step->force[0][j] += change[j];
+        nodes[j] -= less[j];
+    }
+    *step->end_indentation -= less[NODES];
+    return true;
+}
 
 struct modal_run {
     struct march march;
@@ -49,12 +425,6 @@ enum {
     /* A step takes two or three iterations; so many more cost as much as one more. */
     ITERATIONS_PER_STEP = 8
 };
-
-/* fmax and fmin are calls; these are for numbers. */
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 static double smaller(double a, double b)
 {

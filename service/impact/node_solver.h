@@ -54,4 +54,26 @@ bool node_solve_together(const struct node_problem *problem, double *matrix,
 bool node_solve_linear(const double (*m)[NODES], const double stiffness[NODES],
                        const double b[NODES], double x[NODES]);
 
+enum { NODE_LINEAR_RIGHT = 4, NODE_LINEAR_ROWS = COUPLING_FEW * NODES };
+
+/* A row of the matrix, and the right sides that become the solutions. */
+struct node_linear_row {
+    double matrix[NODE_LINEAR_ROWS];
+    double right[NODE_LINEAR_RIGHT];
+};
+
+struct node_linear {
+    size_t count;                 /* contacts */
+    size_t contact[COUPLING_FEW]; /* which they are */
+    struct node_linear_row row[NODE_LINEAR_ROWS];
+};
+
+/* Fills in the matrix for the contacts that are named; `stiffness` by contact of the scene. The
+ * coupling is one by blocks (coupling.h), prepared for the level. */
+void node_linear_fill(struct node_linear *linear, const struct coupling *coupling, int level,
+                      double (*const stiffness)[NODES]);
+
+/* Solves it. False: the coupling is too strong for elimination in the order of the nodes. */
+bool node_linear_solve(struct node_linear *linear);
+
 #endif

@@ -6,6 +6,7 @@
 #define PERCUSS_IMPACT_OSCILLATOR_H
 
 #include <complex.h>
+#include <stdbool.h>
 
 #include "impact/collocation.h"
 
@@ -30,5 +31,19 @@ void oscillator_moments(double complex z, double c, double complex moments[NODES
  * that order. */
 void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
                     double to_v[NODES + 2]);
+
+enum { LOSS_INPUTS = NODES + 2 };
+
+/* 2 zeta omega int_0^h v^2 dt as a symmetric quadratic form of (q, v, f_1..f_4). */
+void oscillator_loss_form(double omega, double damping, double h,
+                          double form[LOSS_INPUTS][LOSS_INPUTS]);
+
+enum { SERIES_ROWS = STEP_POINTS + 1 };
+
+/* Whether the angle is small enough for it. */
+bool oscillator_series_reaches(double angle);
+
+/* by[point][j]: q at a node or the end by the force at node j; by[STEP_POINTS][j]: v at the end. */
+void oscillator_series_response(double angle, double h, double by[SERIES_ROWS][NODES]);
 
 #endif

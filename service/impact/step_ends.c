@@ -5,7 +5,52 @@
 
 #include <math.h>
 
-#include "impact/quintic.h"
+/* The polynomial of degree five through both ends and the four nodes of a step. */
+
+/* The product of the nodes: that of (s - node_j) at both ends of the step. */
+static const double QUINTIC_PRODUCT = 1.0 / 70.0;
+
+struct quintic {
+    const double *nodes; /* [NODES] */
+    double low, high;
+};
+
+/* Lagrange's polynomials of the nodes at s, and the product. */
+struct quintic_basis {
+    double s, product;
+    double by[NODES];
+};
+
+static struct quintic quintic_through(double start, const double nodes[NODES], double end)
+{
+    double at_start = 0.0;
+    double at_end = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        at_start += nodes[j] * collocation.monomial[j][0];
+        at_end += nodes[j] * collocation.end[0][j];
+    }
+    return (struct quintic){nodes, (start - at_start) / QUINTIC_PRODUCT,
+                            (end - at_end) / QUINTIC_PRODUCT};
+}
+
+static struct quintic_basis quintic_basis_at(double s)
+{
+    struct quintic_basis basis = {.s = s, .product = 1.0};
+    for (int j = 0; j < NODES; j++) {
+        const double *c = collocation.monomial[j];
+        basis.by[j] = ((c[3] * s + c[2]) * s + c[1]) * s + c[0];
+        basis.product *= s - collocation.node[j];
+    }
+    return basis;
+}
+
+static double quintic_value(const struct quintic *quintic, const struct quintic_basis *basis)
+{
+    double sum = (quintic->low + (quintic->high - quintic->low) * basis->s) * basis->product;
+    for (int j = 0; j < NODES; j++)
+        sum += quintic->nodes[j] * basis->by[j];
+    return sum;
+}
 
 /* Gauss-Jacobi quadrature of x^(3/2) times polynomials up to the seventh degree on 0..1, the
  * weights over x^(3/2); all numbers to 20 digits from the moments. */
@@ -138,4 +183,55 @@ bool step_ends_project_all(const struct scene *scene, const struct contact_start
         any = step_ends_project(&end, step->force[c]) || any;
     }
     return any;
+}
+
+double step_values_closing(const struct step_values *values)
+{
+    double before = values->start;
+    double at = 0.0;
+    for (int j = 0; j <= NODES; j++) {
+        double s = j < NODES ? collocation.node[j] : 1.0;
+        double d = j < NODES ? values->nodes[j] : values->end;
+        double missing = before < 0.0 ? -before : 0.0;
+        if (d > 0.0)
+            return at + (s - at) * missing / (d + missing);
+        before = d;
+        at = s;
+    }
+    return 1.0;
+}
+
+double step_values_release(const struct step_values *values)
+{
+    double after = values->end;
+    double at = 1.0;
+    for (int j = NODES - 1; j >= -1; j--) {
+        double s = j < 0 ? 0.0 : collocation.node[j];
+        double d = j < 0 ? values->start : values->nodes[j];
+        if (d > 0.0)
+            return s + (at - s) * d / (d - after);
+        after = d;
+        at = s;
+    }
+    return 0.0;
+}
+
+struct contact_start step_values_after(const struct step_values *values, double h)
+{
+    const double *d = values->nodes;
+    double r = 1.0 / h;
+    double slope[NODES];
+    for (int m = 1; m < NODES; m++) {
+        const double *by = collocation.end[m];
+        slope[m] = (by[0] * d[0] + by[1] * d[1]) + (by[2] * d[2] + by[3] * d[3]);
+    }
+    return (struct contact_start){values->end, slope[1] * r, 2.0 * slope[2] * (r * r),
+                                  6.0 * slope[3] * (r * r * r)};
+}
+
+double step_values_opens(const struct contact_start *now)
+{
+    double square = now->rate * now->rate - 2.0 * now->curvature * now->indentation;
+    double fall = square >= 0.0 ? sqrt(square) - now->rate : 0.0;
+    return fall > 0.0 && now->indentation > 0.0 ? 2.0 * now->indentation / fall : INFINITY;
 }

@@ -10,7 +10,25 @@
 #define PERCUSS_IMPACT_STEP_ENDS_H
 
 #include "contact/law.h"
-#include "impact/step_values.h"
+#include "impact/collocation.h"
+#include "impact/contact_step.h"
+
+/* Indentation of a contact at the start, the nodes and the end of a step. */
+struct step_values {
+    double start, end;
+    const double *nodes; /* [NODES] */
+};
+
+/* Share of the step up to the first and to the last instant with positive indentation, linear
+ * between the nodes around it; 1 and 0: there is none. */
+double step_values_closing(const struct step_values *values);
+double step_values_release(const struct step_values *values);
+
+/* At the end of a step of length h: derivatives of the cubic through its nodes. */
+struct contact_start step_values_after(const struct step_values *values, double h);
+
+/* When a closed contact would open as it moves now, along a parabola; INFINITY: never. */
+double step_values_opens(const struct contact_start *now);
 
 /* One contact on such a step. */
 struct step_end {

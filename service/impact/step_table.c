@@ -8,9 +8,6 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
-#include "impact/oscillator_loss.h"
-#include "impact/oscillator_series.h"
-#include "impact/response.h"
 
 /* Frequencies and ratios of 0. */
 static struct oscillators *allocate(size_t count)
@@ -64,7 +61,6 @@ void oscillators_free(struct oscillators *set)
         free(set->tables[level]);
         free(set->turns[level]);
     }
-    responses_free(set->responses);
     oscillators_free(set->undamped);
     free(set->which);
     free(set->omega);

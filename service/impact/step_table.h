@@ -48,8 +48,6 @@ struct step_table {
     double *middle;           /* undamped only: LANES modes together, LANES numbers of each term */
 };
 
-struct responses;
-
 /* A set of oscillators with its tables. */
 struct oscillators {
     size_t count, stride;                   /* stride: count rounded up to lanes */
@@ -58,8 +56,7 @@ struct oscillators {
     double *damping;                        /* ratio of each; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* made on first use, */
     size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
-    double *turns[STEP_LEVELS];             /* made on first use, see flight_table.h */
-    struct responses *responses;            /* made on first use, see response.h */
+    double *turns[STEP_LEVELS];             /* made on first use, see flight_kernel.h */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
     size_t *which;                          /* [count] of a part: index among the whole's */

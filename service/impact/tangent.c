@@ -6,10 +6,10 @@
 #include <math.h>
 
 #include "impact/carrier.h"
-#include "impact/fold.h"
+#include "impact/impact_scale.h"
 #include "impact/kernel.h"
 #include "impact/node_factors.h"
-#include "impact/step_cost.h"
+#include "impact/simd.h"
 
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;

@@ -9,7 +9,7 @@
 
 #include "impact/carrier.h"
 #include "impact/coupling.h"
-#include "impact/step_cost.h"
+#include "impact/impact_scale.h"
 
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;

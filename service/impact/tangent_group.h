@@ -6,7 +6,7 @@
 #ifndef PERCUSS_IMPACT_TANGENT_GROUP_H
 #define PERCUSS_IMPACT_TANGENT_GROUP_H
 
-#include "impact/node_linear.h"
+#include "impact/node_solver.h"
 #include "impact/tangent.h"
 
 /* Changes that are followed side by side: what they share is worked out once. */

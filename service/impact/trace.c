@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/impact_scale.h"
 #include "impact/kernel.h"
-#include "impact/step_cost.h"
 
 /* Bounds of the instants: of one contact, of all contacts together. */
 enum { MOST_INSTANTS = 4096, MOST_VALUES = 16384, LEAST_INSTANTS = 256 };

@@ -199,7 +199,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, limit});
 
-    /* the curve has a joint, which the only contact passes (step_knots.h) */
+    /* the curve has a joint, which the only contact passes (modal.c) */
     within = near_peak(yielding, duration);
     double start = fmax(path.value[0] + rise * within + dent, law->history.max_indentation);
     double joint = law->operations->curve->joint(law, start) - dent;

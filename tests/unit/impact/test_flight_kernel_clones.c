@@ -16,6 +16,7 @@
 #define flight_kernel_table       baseline_table
 #define flight_kernel_step        baseline_step
 #define flight_kernel_loss        baseline_loss
+#define flight_table              baseline_flight_table
 #define FLIGHT_TURN_ANGLE         BASELINE_TURN_ANGLE
 #include "impact/flight_kernel.c"
 #undef flight_kernel_bounds
@@ -23,6 +24,7 @@
 #undef flight_kernel_terms
 #undef flight_kernel_turn
 #undef flight_kernel_table
+#undef flight_table
 #undef flight_kernel_step
 #undef flight_kernel_loss
 

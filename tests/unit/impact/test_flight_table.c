@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/flight_table.c: made once, for all modes of a set, and theirs only. */
-#include "impact/flight_table.h"
+/* Mirrors service/impact/flight_kernel.c: made once, for all modes of a set, and theirs only. */
+#include "impact/flight_kernel.h"
 
 #include "check.h"
-#include "impact/flight_kernel.h"
 #include "impact/oscillator.h"
 
 enum { COUNT = 6, LEVEL = 9 };

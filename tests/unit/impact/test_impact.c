@@ -4,8 +4,7 @@
 /* Mirrors service/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
  * both methods, with their scales, starts and audits. */
 #include "impact/impact_scale.h"
-#include "impact/rewind.h"
-#include "impact/step_cost.h"
+#include "impact/march.h"
 #include "unit/impact/toy_scene.h"
 
 static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy, double horizon)

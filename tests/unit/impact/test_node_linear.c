@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/node_linear.c: what it solves fulfils the equations. */
-#include "impact/node_linear.h"
+/* Mirrors service/impact/node_solver.c: what it solves fulfils the equations. */
+#include "impact/node_solver.h"
 #include "unit/impact/toy_scene.h"
 
 enum { CONTACTS = 3, MODES = 2, LEVEL = 30 };

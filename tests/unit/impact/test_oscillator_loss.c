@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/oscillator_loss.c: the quadratic form of the damper's work against a fine
+/* Mirrors service/impact/oscillator.c: the quadratic form of the damper's work against a fine
  * quadrature and against the energy that forces, motion and damper share. */
 #include "check.h"
 #include "impact/oscillator.h"
-#include "impact/oscillator_loss.h"
 
 static double apply(double form[LOSS_INPUTS][LOSS_INPUTS], const double x[LOSS_INPUTS])
 {

@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/oscillator_series.c: against the maps by moments, which take another way,
+/* Mirrors service/impact/oscillator.c: against the maps by moments, which take another way,
  * at every angle that the series reach, and against exact integrals. */
 #include "check.h"
 #include "impact/oscillator.h"
-#include "impact/oscillator_series.h"
 
 static void responses_are_the_maps(void **state)
 {

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/rewind.c: parabolas by their closed roots, one oscillator by arc cosine,
+/* Mirrors service/impact/march.c: parabolas by their closed roots, one oscillator by arc cosine,
  * many of them by dense samples; and how much work that takes. */
-#include "impact/rewind.h"
+#include "impact/march.h"
 #include "unit/impact/toy_scene.h"
 
 /* Approach -gap - rate t + cos(omega t) by one mode of unit amplitude that starts at its far end.

@@ -5,7 +5,6 @@
  * maps bit by bit. */
 #include "check.h"
 #include "impact/oscillator.h"
-#include "impact/oscillator_loss.h"
 #include "impact/step_table.h"
 
 static const double omegas[] = {10.0, 200.0, 3e3, 4e4, 5e5, 6e6};

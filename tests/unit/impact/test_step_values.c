@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/step_values.c: begin and end of a contact on a straight line, and a cubic
+/* Mirrors service/impact/step_ends.c: begin and end of a contact on a straight line, and a cubic
  * that goes on. */
 #include "check.h"
-#include "impact/step_values.h"
+#include "impact/step_ends.h"
 
 /* Indentations of slope * (s - zero) on the step. */
 static struct step_values line(double nodes[NODES], double slope, double zero)

@@ -3,8 +3,8 @@
 
 /* The inner loops' vectors, and the ends of their sums: lanes 0 to 3 are added as
  * (0 + 2) + (1 + 3), however wide the vectors were. */
-#ifndef PERCUSS_IMPACT_FOLD_H
-#define PERCUSS_IMPACT_FOLD_H
+#ifndef PERCUSS_IMPACT_SIMD_H
+#define PERCUSS_IMPACT_SIMD_H
 
 #include "base/vector_clones.h"
 #include "impact/step_table.h"
@@ -13,6 +13,14 @@
  * turn of a loop: what sums in an inner loop is written for either (VECTOR, WIDTH of its lanes). */
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef double half __attribute__((vector_size(2 * sizeof(double))));
+
+#define AT(array, k) (*(const lanes *)((array) + (k)))
+#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
+
+/* A contact's four nodes, wherever they lie. */
+typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
+#define QUAD(at)       (*(quad *)(at))
+#define CONST_QUAD(at) (*(const quad *)(at))
 
 /* Lanes 0 + 2 and 1 + 3 of a sum that is two halves, or that is one. */
 #define FOLD_HALVES(x) ((x)[0] + (x)[1])
