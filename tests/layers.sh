@@ -19,7 +19,6 @@ allowed() {
     contact) echo "base numeric model fe contact" ;;
     impact) echo "base numeric model fe contact impact" ;;
     solve) echo "base numeric model fe contact impact solve" ;;
-    spatial) echo "base numeric model mesh fe contact spatial" ;;
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
     catalogue) echo "base numeric model mesh catalogue" ;;
     store) echo "base numeric model fe contact store" ;;
@@ -119,7 +118,7 @@ only 'yaml' 'service/catalogue|service/respond'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
-only 'zmumps' 'service/spatial'
+only 'zmumps' 'tests/reference/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
 only 'time\.h|sys/|unistd|pthread' 'service/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
 

@@ -53,4 +53,6 @@ includes client/measured/made_up.c base/fault.h
 refused "client looks into the service"
 echo '#include <sqlite3.h>' >>"$work/service/solve/made_up.c"
 refused "<sqlite3> outside service/store"
+echo '#include <zmumps_c.h>' >>"$work/service/reduce/made_up.c"
+refused "<zmumps> outside tests/reference/spatial"
 echo "layers_test: passed"

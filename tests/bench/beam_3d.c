@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The paper's steel sphere on the middle of its aluminium beam as complete finite elements in three
- * dimensions (service/spatial): restitution, sub-impacts, energy balance and time; a line of CSV
- * each, the first with the names.
- * usage: beam_3d [--speed V]... [--levels N] [--across N] [--bricks N] [--contact-step S]
+ * dimensions (tests/reference/spatial): restitution, sub-impacts, energy balance and time; a line
+ * of CSV each, the first with the names. usage: beam_3d [--speed V]... [--levels N] [--across N]
+ * [--bricks N] [--contact-step S]
  *                [--flight-step S] [--horizon S] [--history FILE] [--no-header] */
 #include "beam_case.h"
 

@@ -3,7 +3,7 @@
 
 /* The paper's steel sphere on the middle of its aluminium beam by modes: model B with the elliptic
  * contact region solved in every step, model C with the table of that region, and the same with
- * Hertz's elliptic law (H); service/spatial. A line of CSV each, the first with the names.
+ * Hertz's elliptic law (H); tests/reference/spatial. A line of CSV each, the first with the names.
  * usage: beam_modal [--speed V]... [--resolution N] [--modes N] [--step S] [--history PREFIX]
  *                   [--no-header] */
 #include "beam_case.h"

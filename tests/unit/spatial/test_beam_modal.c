@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/beam_modal.c: the paper's beam at 0.2 m/s with a coarse region against
- * the modal solutions with Hertz's law, the books of energy, and a beam without modes, which is a
- * rigid body. */
+/* Mirrors tests/reference/spatial/beam_modal.c: the paper's beam at 0.2 m/s with a coarse region
+ * against the modal solutions with Hertz's law, the books of energy, and a beam without modes,
+ * which is a rigid body. */
 #include <string.h>
 
 #include "check.h"

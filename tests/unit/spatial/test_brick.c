@@ -1,12 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/brick.c: uniform strain has its energy exactly, rigid motion none, the
- * mass is the volume's, mirrored bricks are the same, folded ones are refused. */
+/* Mirrors the bricks of tests/reference/spatial/system.c: uniform strain has its energy exactly,
+ * rigid motion none, the mass is the volume's, mirrored bricks are the same, folded ones are
+ * refused. */
 #include <string.h>
 
 #include "check.h"
-#include "spatial/brick.h"
+#include "spatial/system.h"
 
 static const struct material metal = {"metal", 70e9, 0.33, 2700.0, INFINITY, 0.0};
 

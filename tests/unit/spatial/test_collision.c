@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/collision.c with moving.c and kept_factor.c: the first blow on a
+/* Mirrors tests/reference/spatial/collision.c with moving.c: the first blow on a
  * coarse mesh against the modal solution, and the books of momentum and energy; what is refused. */
 #include <string.h>
 

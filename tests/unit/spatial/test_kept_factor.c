@@ -1,15 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/kept_factor.c: it solves what it factored, and subspace iteration with it
- * gives the meshed beam the frequencies of Timoshenko's theory with Hutchinson's shear factor,
- * which 3-D meshes confirm to 2e-5 in the first modes. */
+/* Mirrors the factor of tests/reference/spatial/moving.c: it solves what it factored, and subspace
+ * iteration with it gives the meshed beam the frequencies of Timoshenko's theory with Hutchinson's
+ * shear factor, which 3-D meshes confirm to 2e-5 in the first modes. */
 #include <string.h>
 
 #include "check.h"
 #include "model/beam.h"
 #include "numeric/linear.h"
-#include "spatial/kept_factor.h"
+#include "spatial/moving.h"
 
 static const struct material aluminium = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0};
 enum { VECTORS = 12, WANTED = 6, ROUNDS = 14 };

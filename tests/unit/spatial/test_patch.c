@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/patch.c: Hertz's elliptic contact, its exact law, finer the nearer; what
- * gives way besides; what is refused. */
+/* Mirrors tests/reference/spatial/patch.c: Hertz's elliptic contact, its exact law, finer the
+ * nearer; what gives way besides; what is refused. */
 #include <string.h>
 
 #include "check.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/places.c: points on both sides of a wall of its grid are one, and ten
- * thousand others are not. */
+/* Mirrors tests/reference/spatial/places.c: points on both sides of a wall of its grid are one, and
+ * ten thousand others are not. */
 #include "check.h"
 #include "spatial/places.h"
 

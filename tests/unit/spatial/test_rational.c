@@ -1,10 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/rational.c on one oscillator u'' + w^2 u = f: its orders against the
- * exact motion under a force that rises, energy, and what is too stiff for the step. */
+/* Mirrors the rules of tests/reference/spatial/moving.c on one oscillator u'' + w^2 u = f: its
+ * orders against the exact motion under a force that rises, energy, and what is too stiff for the
+ * step. */
 #include "check.h"
-#include "spatial/rational.h"
+#include "spatial/moving.h"
 
 static void step(const struct rational *rule, double h, double stiffness, const double force[2],
                  double state[2])

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/refined.c: bricks fill the body, neighbours fit, what
+/* Mirrors tests/reference/spatial/refined.c: bricks fill the body, neighbours fit, what
  * hangs follows a quadratic field exactly. */
 #include "check.h"
 #include "spatial/refined.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/shape.c: the contact is where it is said to be, the surfaces lie on beam
- * and sphere, and blocks meet: no volume is missing or there twice. */
+/* Mirrors the shapes of tests/reference/spatial/refined.c: the contact is where it is said to be,
+ * the surfaces lie on beam and sphere, and blocks meet: no volume is missing or there twice. */
 #include "check.h"
 #include "spatial/system.h"
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/spatial/system.c on a beam halved at the contact: rigid motion has no forces,
- * uniform strain its energy, the mass is the volume's. */
+/* Mirrors tests/reference/spatial/system.c on a beam halved at the contact: rigid motion has no
+ * forces, uniform strain its energy, the mass is the volume's. */
 #include <string.h>
 
 #include "check.h"

@@ -3,8 +3,171 @@
 
 #include "spatial/moving.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zmumps_c.h>
+
+/* The stages Y = u0 1 + h A (dY/dt), A = T diag(pole, its conjugate) T^-1, become p = the first of
+ * T^-1 Y, with T scaled so that the first of T^-1 1 is 1; u1 = u0 (1 - d 1) + d Y with d = b A^-1.
+ */
+struct rational rational_make(enum rational_rule rule)
+{
+    /* the method's places, matrix and weights */
+    double w = sqrt(3.0) / 6.0;
+    bool radau = rule == RATIONAL_RADAU;
+    double place[2] = {radau ? 1.0 / 3.0 : 0.5 - w, radau ? 1.0 : 0.5 + w};
+    double a[2][2] = {{radau ? 5.0 / 12.0 : 0.25, radau ? -1.0 / 12.0 : 0.25 - w},
+                      {radau ? 0.75 : 0.25 + w, 0.25}};
+    double b[2] = {radau ? 0.75 : 0.5, radau ? 0.25 : 0.5};
+    /* the eigenvalue and its vector t; the other column of T is conjugate */
+    double half_trace = 0.5 * (a[0][0] + a[1][1]);
+    double determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    double complex pole = half_trace + I * sqrt(determinant - half_trace * half_trace);
+    double complex t[2] = {a[0][1], pole - a[0][0]};
+    double complex over = t[0] * conj(t[1]) - conj(t[0]) * t[1];
+    double complex inverse[2] = {conj(t[1]) / over, -conj(t[0]) / over};
+    double complex scale = inverse[0] + inverse[1];
+    /* d = b A^-1 */
+    double d[2] = {(b[0] * a[1][1] - b[1] * a[1][0]) / determinant,
+                   (b[1] * a[0][0] - b[0] * a[0][1]) / determinant};
+    struct rational made = {.pole = pole, .keep = 1.0 - d[0] - d[1]};
+    made.weight = scale * (d[0] * t[0] + d[1] * t[1]);
+    for (int i = 0; i < 2; i++) {
+        made.start += inverse[i] / scale * (1.0 - place[i]);
+        made.end += inverse[i] / scale * place[i];
+    }
+    return made;
+}
+
+/* MUMPS's own word for "the communicator of everybody" where there is no MPI */
+static const MUMPS_INT COMM_WORLD = -987654;
+enum { JOB_INIT = -1, JOB_END = -2, JOB_ANALYSE_FACTOR = 4, JOB_SOLVE = 3 };
+enum { SYMMETRIC = 2, HOST_WORKS = 1, SCOTCH = 3 };
+/* Right-hand sides solved at a time: more take memory and save nothing. */
+static const MUMPS_INT SIDES_AT_A_TIME = 32;
+
+struct kept_factor {
+    ZMUMPS_STRUC_C mumps;
+    MUMPS_INT *rows, *columns;
+    mumps_double_complex *values;
+    size_t freedoms;
+};
+
+/* entries of the upper triangle; a held freedom has its own equation 1 x = right */
+static size_t factor_fill(const struct system3 *system, double complex s,
+                          struct kept_factor *factor)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < system->nodes; i++)
+        for (size_t b = system->first[i]; b < system->first[i + 1]; b++)
+            for (size_t c = 0; c < 9; c++) {
+                size_t row = 3 * i + c / 3, column = 3 * system->columns[b] + c % 3;
+                bool held = system->held[row] || system->held[column];
+                if (row > column || (held && row != column))
+                    continue;
+                double complex value = system->stiffness[b][c];
+                if (c / 3 == c % 3)
+                    value += s * system->mass[b];
+                if (held)
+                    value = 1.0;
+                factor->rows[used] = (MUMPS_INT)row + 1;
+                factor->columns[used] = (MUMPS_INT)column + 1;
+                factor->values[used++] = (mumps_double_complex){creal(value), cimag(value)};
+            }
+    return used;
+}
+
+static bool factor_prepare(const struct system3 *system, double complex s,
+                           struct kept_factor *factor)
+{
+    size_t room = 9 * system->first[system->nodes];
+    factor->freedoms = system->freedoms;
+    factor->rows = malloc(room * sizeof *factor->rows);
+    factor->columns = malloc(room * sizeof *factor->columns);
+    factor->values = malloc(room * sizeof *factor->values);
+    if (!factor->rows || !factor->columns || !factor->values)
+        return false;
+    ZMUMPS_STRUC_C *mumps = &factor->mumps;
+    mumps->n = (MUMPS_INT)system->freedoms;
+    mumps->nnz = (MUMPS_INT8)factor_fill(system, s, factor);
+    mumps->irn = factor->rows;
+    mumps->jcn = factor->columns;
+    mumps->a = factor->values;
+    return true;
+}
+
+enum percuss_status kept_factor_create(const struct system3 *system, double complex s,
+                                       struct kept_factor **made, struct fault *fault)
+{
+    *made = NULL;
+    struct kept_factor *factor = calloc(1, sizeof *factor);
+    if (!factor)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    ZMUMPS_STRUC_C *mumps = &factor->mumps;
+    mumps->job = JOB_INIT;
+    mumps->par = HOST_WORKS;
+    mumps->sym = SYMMETRIC;
+    mumps->comm_fortran = COMM_WORLD;
+    zmumps_c(mumps);
+    /* silent; fill-reducing order by Scotch; numbers of control as its manual counts them, from 1
+     */
+    mumps->icntl[0] = mumps->icntl[1] = mumps->icntl[2] = -1;
+    mumps->icntl[3] = 0;
+    mumps->icntl[6] = SCOTCH;
+    mumps->icntl[26] = SIDES_AT_A_TIME;
+    bool prepared = factor_prepare(system, s, factor);
+    if (prepared) {
+        mumps->job = JOB_ANALYSE_FACTOR;
+        zmumps_c(mumps);
+    }
+    if (!prepared || mumps->infog[0] < 0) {
+        int code = prepared ? (int)mumps->infog[0] : 0;
+        kept_factor_free(factor);
+        return fault_set(fault, PERCUSS_INTERNAL, "MUMPS: error %d for %zu freedoms", code,
+                         system->freedoms);
+    }
+    /* the factor is in MUMPS's own memory now */
+    free(factor->rows);
+    free(factor->columns);
+    free(factor->values);
+    factor->rows = factor->columns = NULL;
+    factor->values = NULL;
+    *made = factor;
+    return PERCUSS_OK;
+}
+
+void kept_factor_free(struct kept_factor *factor)
+{
+    if (!factor)
+        return;
+    factor->mumps.job = JOB_END;
+    zmumps_c(&factor->mumps);
+    free(factor->rows);
+    free(factor->columns);
+    free(factor->values);
+    free(factor);
+}
+
+bool kept_factor_solve(struct kept_factor *factor, size_t count, double complex *right)
+{
+    ZMUMPS_STRUC_C *mumps = &factor->mumps;
+    /* C's complex numbers lie in memory as MUMPS's do: real, imaginary */
+    mumps->rhs = (mumps_double_complex *)right;
+    mumps->nrhs = (MUMPS_INT)count;
+    mumps->lrhs = (MUMPS_INT)factor->freedoms;
+    mumps->job = JOB_SOLVE;
+    zmumps_c(mumps);
+    return mumps->infog[0] >= 0;
+}
+
+double kept_factor_size(const struct kept_factor *factor)
+{
+    /* INFOG(29); in millions where negative */
+    double size = factor->mumps.infog[28];
+    return size < 0.0 ? -1e6 * size : size;
+}
 
 /* Unit forces solved at once for the compliance: bounds its memory. */
 enum { FORCES_AT_ONCE = 32 };

@@ -9,6 +9,14 @@
 
 #include "spatial/refined.h"
 
+enum { BRICK_FREEDOMS = 3 * BRICK_NODES };
+
+/* Stiffness (N/m) of freedom 3 node + direction, mass (kg) of one direction of a
+ * brick (mesh/element.h), the map of which may be mirrored. False: the map folds. */
+bool brick_matrices(double points[ELEMENT_MOST_NODES][3], const struct material *material,
+                    double stiffness[BRICK_FREEDOMS][BRICK_FREEDOMS],
+                    double mass[BRICK_NODES][BRICK_NODES]);
+
 /* Owns its arrays. */
 struct system3 {
     size_t nodes, freedoms; /* 3 nodes */

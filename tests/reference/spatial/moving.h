@@ -1,12 +1,46 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A meshed body in motion, pressed at the nodes that may touch. */
+/* A meshed body in motion, pressed at the nodes that may touch: its steps in time, and the factors
+ * that they are solved with. */
 #ifndef PERCUSS_SPATIAL_MOVING_H
 #define PERCUSS_SPATIAL_MOVING_H
 
-#include "spatial/kept_factor.h"
-#include "spatial/rational.h"
+#include <complex.h>
+
+#include "spatial/system.h"
+
+/* Steps of linear vibration M u'' + K u = f by collocation at two places with a matrix of one pair
+ * of complex eigenvalues: one complex solution is a step. Radau's (places 1/3, 1; third order)
+ * follows modes too stiff for the step statically and is made for contact; Gauss's (fourth order)
+ * keeps energy to rounding and is made for free flight. Hairer, Wanner: Solving Ordinary
+ * Differential Equations II, section IV.8. */
+enum rational_rule { RATIONAL_RADAU, RATIONAL_GAUSS };
+
+/* With s = 1 / (pole h)^2: (K + s M) p = s M (u0 + pole h v0) + start f0 + end f1 for forces that
+ * go linearly from f0 to f1, q = (p - u0) / (pole h), then u1 = keep u0 + 2 Re(weight p),  v1 =
+ * keep v0 + 2 Re(weight q). */
+struct rational {
+    double complex pole, weight, start, end;
+    double keep;
+};
+
+struct rational rational_make(enum rational_rule rule);
+
+/* The factor of K + s M for a complex s, made once and used for every step (MUMPS, sequential). */
+struct kept_factor;
+
+/* OK, or INTERNAL with the error code of MUMPS. */
+enum percuss_status kept_factor_create(const struct system3 *system, double complex s,
+                                       struct kept_factor **factor, struct fault *fault);
+void kept_factor_free(struct kept_factor *factor);
+
+/* Solves (K + s M) x = right in place for `count` vectors, one after the other. False: it failed.
+ */
+bool kept_factor_solve(struct kept_factor *factor, size_t count, double complex *right);
+
+/* Numbers in the factor. */
+double kept_factor_size(const struct kept_factor *factor);
 
 /* One size of steps. */
 struct pace3 {
