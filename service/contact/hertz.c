@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "numeric/elliptic.h"
+#include "numeric/special.h"
 
 double hertz_effective_modulus(const struct material *a, const struct material *b)
 {
@@ -17,7 +17,7 @@ double hertz_effective_modulus(const struct material *a, const struct material *
  * (a/b)^2 E - K = m R_D(0,1,q)/3 (DLMF 19.25.1), so that B/A needs no series near the circle. */
 static double curvature_ratio(double q)
 {
-    return elliptic_rd0(1.0, q) / elliptic_rd0(q, 1.0);
+    return special_elliptic_rd0(1.0, q) / special_elliptic_rd0(q, 1.0);
 }
 
 /* q = (b/a)^2 for B/A = ratio >= 1: the ratio falls from infinity to 1 as q rises to 1; regula
@@ -55,8 +55,8 @@ static double axis_ratio_squared(double ratio)
 struct hertz_contact hertz_contact_make(double effective_modulus, double a, double b)
 {
     double q = axis_ratio_squared(b / a);
-    double k = elliptic_rf0(q, 1.0);
-    double integral = elliptic_rd0(q, 1.0);
+    double k = special_elliptic_rf0(q, 1.0);
+    double integral = special_elliptic_rd0(q, 1.0);
     double g = integral / (3.0 * a);
     /* the axis ratio gives q back but for rounding */
     double axis_ratio = sqrt(q);
@@ -66,7 +66,7 @@ struct hertz_contact hertz_contact_make(double effective_modulus, double a, doub
         .stiffness = 2.0 * M_PI / 3.0 * effective_modulus * sqrt(g) / (k * sqrt(k)),
         .axis_ratio = axis_ratio,
         .curvature = {a, b},
-        .integral = again == q ? integral : elliptic_rd0(again, 1.0),
+        .integral = again == q ? integral : special_elliptic_rd0(again, 1.0),
     };
 }
 

@@ -5,16 +5,16 @@
 
 #include <cblas.h>
 
-#include "numeric/turn.h"
+#include "numeric/linear.h"
 
 void dense_products(struct dense a, struct dense b, double *products)
 {
     if (a.count == 0 || b.count == 0)
         return;
-    turn_begin();
+    linear_turn_begin();
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (int)a.count, (int)b.count, (int)a.n, 1.0,
                 a.values, (int)a.n, b.values, (int)b.n, 0.0, products, (int)a.count);
-    turn_end();
+    linear_turn_end();
 }
 
 void dense_combine(struct dense a, double factor, const double *coefficients, double keep,
@@ -22,8 +22,8 @@ void dense_combine(struct dense a, double factor, const double *coefficients, do
 {
     if (a.count == 0 || y_count == 0)
         return;
-    turn_begin();
+    linear_turn_begin();
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (int)a.n, (int)y_count, (int)a.count,
                 factor, a.values, (int)a.n, coefficients, (int)a.count, keep, y, (int)a.n);
-    turn_end();
+    linear_turn_end();
 }

@@ -21,7 +21,7 @@ struct tableau {
     double *a, *b;
 };
 
-static double *row_of(const struct tableau *t, size_t i)
+static double *lcp_row_of(const struct tableau *t, size_t i)
 {
     return t->cell + i * t->width;
 }
@@ -38,7 +38,7 @@ static bool tableau_create(struct tableau *t, size_t n, const double *m, const d
     t->a = t->cell + n * t->width;
     t->b = t->a + n * n;
     for (size_t i = 0; i < n; i++) {
-        double *row = row_of(t, i);
+        double *row = lcp_row_of(t, i);
         row[i] = 1.0;
         for (size_t j = 0; j < n; j++)
             row[n + j] = -m[i * n + j];
@@ -52,12 +52,12 @@ static bool tableau_create(struct tableau *t, size_t n, const double *m, const d
 
 static void pivot(struct tableau *t, size_t pivot_row, size_t column)
 {
-    double *p = row_of(t, pivot_row);
+    double *p = lcp_row_of(t, pivot_row);
     double inverse = 1.0 / p[column];
     for (size_t k = 0; k < t->width; k++)
         p[k] *= inverse;
     for (size_t i = 0; i < t->n; i++) {
-        double *row = row_of(t, i);
+        double *row = lcp_row_of(t, i);
         double factor = row[column];
         if (i == pivot_row || factor == 0.0)
             continue;
@@ -71,8 +71,8 @@ static void pivot(struct tableau *t, size_t pivot_row, size_t column)
 /* -1, 0, 1 by (q, inverse basis) of row a over its entry against row b over its. */
 static int compare_ratio(const struct tableau *t, size_t a, size_t b, size_t column)
 {
-    const double *ra = row_of(t, a);
-    const double *rb = row_of(t, b);
+    const double *ra = lcp_row_of(t, a);
+    const double *rb = lcp_row_of(t, b);
     for (size_t k = 0; k <= t->n; k++) {
         size_t at = k == 0 ? t->width - 1 : k - 1;
         double x = ra[at] / ra[column];
@@ -89,9 +89,9 @@ static size_t leaving_row(const struct tableau *t, size_t column)
     size_t best = t->n;
     double largest = 0.0;
     for (size_t i = 0; i < t->n; i++)
-        largest = fmax(largest, fabs(row_of(t, i)[column]));
+        largest = fmax(largest, fabs(lcp_row_of(t, i)[column]));
     for (size_t i = 0; i < t->n; i++) {
-        if (!(row_of(t, i)[column] > 1e-13 * largest))
+        if (!(lcp_row_of(t, i)[column] > 1e-13 * largest))
             continue;
         int order = best == t->n ? -1 : compare_ratio(t, i, best, column);
         if (order < 0 || (order == 0 && t->basis[i] == 2 * t->n))
@@ -106,9 +106,9 @@ static bool lemke(struct tableau *t)
     /* z0 enters where q is most negative; nothing to do where none is */
     size_t first = 0;
     for (size_t i = 1; i < n; i++)
-        if (row_of(t, i)[t->width - 1] < row_of(t, first)[t->width - 1])
+        if (lcp_row_of(t, i)[t->width - 1] < lcp_row_of(t, first)[t->width - 1])
             first = i;
-    if (row_of(t, first)[t->width - 1] >= 0.0)
+    if (lcp_row_of(t, first)[t->width - 1] >= 0.0)
         return true;
     /* the complement of what left enters, until z0 leaves */
     size_t left = t->basis[first];
@@ -129,7 +129,7 @@ static bool lemke(struct tableau *t)
 /* The final basis solved afresh, without the tableau's rounding: m_BB z_B = -q_B with the raised
  * diagonal, and refinement that takes the raise out again (from near-singular groups, whose large
  * impulses it would falsify). Where it is singular after all the tableau's values stay. */
-static void polish(const struct tableau *t, const double *m, const double *q, double *z)
+static void lcp_polish(const struct tableau *t, const double *m, const double *q, double *z)
 {
     size_t n = t->n;
     size_t *list = t->list;
@@ -185,9 +185,9 @@ enum lcp_outcome lcp_solve(size_t n, const double *m, const double *q, double *z
     memset(z, 0, n * sizeof *z);
     for (size_t i = 0; solved && i < n; i++)
         if (t.basis[i] >= n && t.basis[i] < 2 * n)
-            z[t.basis[i] - n] = fmax(0.0, row_of(&t, i)[t.width - 1]);
+            z[t.basis[i] - n] = fmax(0.0, lcp_row_of(&t, i)[t.width - 1]);
     if (solved)
-        polish(&t, m, q, z);
+        lcp_polish(&t, m, q, z);
     free(t.cell);
     free(t.basis);
     if (!created)

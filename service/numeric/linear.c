@@ -8,17 +8,36 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <threads.h>
 
-#include "numeric/turn.h"
+/* The buffers that the lock guards are the process's, too. */
+static once_flag linear_lock_made = ONCE_FLAG_INIT;
+static mtx_t linear_lock;
+
+static void linear_lock_make(void)
+{
+    mtx_init(&linear_lock, mtx_plain);
+}
+
+void linear_turn_begin(void)
+{
+    call_once(&linear_lock_made, linear_lock_make);
+    mtx_lock(&linear_lock);
+}
+
+void linear_turn_end(void)
+{
+    mtx_unlock(&linear_lock);
+}
 
 bool linear_symmetric_eigen(size_t n, double *a, double *eigenvalues)
 {
     /* a symmetric matrix is its own transpose: column-major avoids LAPACKE's copies, and column i
      * of the result is row i of ours */
     lapack_int order = (lapack_int)n;
-    turn_begin();
+    linear_turn_begin();
     lapack_int result = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', order, a, order, eigenvalues);
-    turn_end();
+    linear_turn_end();
     return result == 0;
 }
 
@@ -48,10 +67,10 @@ size_t linear_eigen_between(size_t n, double *a, double low, double high, double
     lapack_int order = (lapack_int)n, found = 0, result = -1;
     lapack_int *support = calloc(2 * n + 1, sizeof *support);
     if (support) {
-        turn_begin();
+        linear_turn_begin();
         result = LAPACKE_dsyevr(LAPACK_COL_MAJOR, 'V', 'V', 'L', order, a, order, low, high, 0, 0,
                                 0.0, &found, eigenvalues, vectors, order, support);
-        turn_end();
+        linear_turn_end();
     }
     free(support);
     return result == 0 ? (size_t)found : SIZE_MAX;
@@ -59,15 +78,15 @@ size_t linear_eigen_between(size_t n, double *a, double low, double high, double
 
 bool linear_packed_factor(size_t n, double *a)
 {
-    turn_begin();
+    linear_turn_begin();
     lapack_int result = LAPACKE_dpptrf(LAPACK_COL_MAJOR, 'L', (lapack_int)n, a);
-    turn_end();
+    linear_turn_end();
     return result == 0;
 }
 
 void linear_packed_solve(size_t n, const double *factor, double *x)
 {
-    turn_begin();
+    linear_turn_begin();
     LAPACKE_dpptrs(LAPACK_COL_MAJOR, 'L', (lapack_int)n, 1, factor, x, (lapack_int)n);
-    turn_end();
+    linear_turn_end();
 }

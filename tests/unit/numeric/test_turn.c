@@ -1,10 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests numeric/turn.c: band matrices factored in several threads at once have the factors that
- * they have alone, bit for bit. Without turns some are wrong within seconds. */
-
-#include "numeric/turn.h"
+/* Tests the turns of numeric/linear.c: band matrices factored in several threads at once have the
+ * factors that they have alone, bit for bit. Without turns some are wrong within seconds. */
 
 #include <pthread.h>
 #include <string.h>
