@@ -18,7 +18,7 @@ void body_state_make_room(const struct roll *roll, struct body_state *sizes)
         *y = *z = *y < *z ? *y : *z;
 }
 
-static void turn(const struct roll *roll, struct body_state *state)
+static void turn_planes(const struct roll *roll, struct body_state *state)
 {
     double *y = (double *)body_state_family(state, roll->first);
     double *z = (double *)body_state_family(state, roll->first + 1);
@@ -39,7 +39,7 @@ const struct body_state *body_state_turned(const struct body_state *state, const
                2 * state->count[f] * sizeof *state->coordinates);
     memcpy((struct dent *)body_state_dents(turned), body_state_dents(state),
            state->dents * sizeof(struct dent));
-    turn(roll, turned);
+    turn_planes(roll, turned);
     return turned;
 }
 
@@ -47,5 +47,5 @@ void body_state_turn_back(const struct roll *roll, struct body_state *state)
 {
     const struct roll back = {roll->first, roll->cosine, -roll->sine};
     if (roll->sine != 0.0)
-        turn(&back, state);
+        turn_planes(&back, state);
 }

@@ -3,7 +3,6 @@
 
 #include "contact/curves.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 
 /* Four-point Gauss-Legendre rule on (0, 1). */
@@ -36,27 +35,20 @@ double curves_work_on(const struct spline *a, const struct spline *b, double mix
     return sum * range;
 }
 
-static bool rises(size_t count, const double *values)
-{
-    for (size_t i = 1; i < count; i++)
-        if (!(values[i] > values[i - 1]))
-            return false;
-    return isfinite(values[count - 1]);
-}
-
 static enum percuss_status check_table(const struct contact_table *table, struct fault *fault)
 {
     /* the loading curve */
-    if (table->points < 3 || !rises(table->points, table->indentation) ||
-        !rises(table->points, table->force) || !rises(table->points, table->contact_radius) ||
-        table->indentation[0] != 0.0 || table->force[0] != 0.0 || table->contact_radius[0] != 0.0)
+    if (table->points < 3 || !curves_rise(table->points, table->indentation) ||
+        !curves_rise(table->points, table->force) ||
+        !curves_rise(table->points, table->contact_radius) || table->indentation[0] != 0.0 ||
+        table->force[0] != 0.0 || table->contact_radius[0] != 0.0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "table: %zu points of loading: must be 3 or more that rise from 0",
                          table->points);
     /* the grid of the branches */
     if (table->branches &&
         (table->samples < 3 || !(table->yield > 0.0) || !(table->largest[0] > table->yield) ||
-         !rises(table->branches, table->largest)))
+         !curves_rise(table->branches, table->largest)))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "table: %zu branches of %zu samples, yield at %g m: must be 3 or more "
                          "samples each, from rising indentations beyond the yield",
@@ -65,7 +57,8 @@ static enum percuss_status check_table(const struct contact_table *table, struct
     for (size_t b = 0; b < table->branches; b++) {
         const double *share = table->share + b * table->samples;
         if (!(table->residual[b] >= 0.0 && table->residual[b] < table->largest[b]) ||
-            !rises(table->samples, share) || share[0] != 0.0 || share[table->samples - 1] != 1.0)
+            !curves_rise(table->samples, share) || share[0] != 0.0 ||
+            share[table->samples - 1] != 1.0)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "table: branch %zu from %g m back to %g m: must end between 0 and its "
                              "beginning, with shares that rise from 0 to 1",
@@ -82,8 +75,8 @@ static struct spline take_spline(double **block, size_t count)
     return spline;
 }
 
-static void fill_loading(struct contact_curves *curves, const struct contact_table *table,
-                         double *scratch)
+static void curves_fill_loading(struct contact_curves *curves, const struct contact_table *table,
+                                double *scratch)
 {
     struct spline *loading = &curves->loading;
     for (size_t i = 0; i < table->points; i++) {
@@ -143,8 +136,8 @@ void curves_finish(struct contact_curves *curves)
     find_joints(curves);
 }
 
-static void fill_branches(struct contact_curves *curves, const struct contact_table *table,
-                          double *scratch)
+static void curves_fill_branches(struct contact_curves *curves, const struct contact_table *table,
+                                 double *scratch)
 {
     curves->spring.place[0] = log(table->yield);
     curves->spring.value[0] = 1.0;
@@ -200,10 +193,10 @@ enum percuss_status contact_curves_create(const struct contact_table *table,
     curves->branches = branches;
     curves->range = table->range > 0.0 ? table->range : table->indentation[points - 1];
     /* values, slopes, work */
-    fill_loading(curves, table, scratch);
+    curves_fill_loading(curves, table, scratch);
     curves_finish(curves);
     if (branches)
-        fill_branches(curves, table, scratch);
+        curves_fill_branches(curves, table, scratch);
     free(scratch);
     *made = curves;
     return PERCUSS_OK;

@@ -8,6 +8,7 @@
 #define PERCUSS_CONTACT_CURVES_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "contact/table.h"
@@ -33,6 +34,15 @@ static inline double curves_two_thirds(double value)
 {
     double root = cbrt(value);
     return root * root;
+}
+
+/* Whether values rise strictly, to a finite last one. */
+static inline bool curves_rise(size_t count, const double *values)
+{
+    for (size_t i = 1; i < count; i++)
+        if (!(values[i] > values[i - 1]))
+            return false;
+    return isfinite(values[count - 1]);
 }
 
 /* Integral of value^(3/2) over a part of segment i of a mix of two splines, which share their

@@ -84,7 +84,7 @@ double closed_form_restitution(double times, double strain)
     return fmax(fit, 0.0) * sqrt(sqrt(within / speed));
 }
 
-static double hertz_force(const struct contact_law *law, double d, double *slope)
+static double closed_form_elastic(const struct contact_law *law, double d, double *slope)
 {
     double root = sqrt(d);
     *slope = 1.5 * law->parameters[STIFFNESS] * root;
@@ -118,11 +118,11 @@ static double plastic_piece(const struct contact_law *law, double w, double *by_
     return first + second;
 }
 
-static double loading_force(const struct contact_law *law, double d, double *slope)
+static double closed_form_loading_force(const struct contact_law *law, double d, double *slope)
 {
     double depth = law->parameters[YIELD_DEPTH];
     double w = d / depth;
-    double elastic = hertz_force(law, d, slope);
+    double elastic = closed_form_elastic(law, d, slope);
     if (!(w > PLASTIC_FROM))
         return elastic;
     /* the second piece, in units of F_c = k d_c^(3/2) */
@@ -155,13 +155,13 @@ static double work_between(const struct contact_law *law, double from, double to
         for (int i = 0; i < 4; i++) {
             double slope;
             double d = from * exp(centre + (i % 2 ? half : -half) * gauss_node[i / 2]);
-            sum += half * gauss_weight[i / 2] * d * loading_force(law, d, &slope);
+            sum += half * gauss_weight[i / 2] * d * closed_form_loading_force(law, d, &slope);
         }
     }
     return sum;
 }
 
-static double loading_work(const struct contact_law *law, double d)
+static double closed_form_loading_work(const struct contact_law *law, double d)
 {
     /* panels at which the rule leaves 1e-10 of the work; the step between the pieces bends more */
     const double step_panel = 0.1;
@@ -177,19 +177,19 @@ static double loading_work(const struct contact_law *law, double d)
     return sum;
 }
 
-static double next_joint(const struct contact_law *law, double d)
+static double closed_form_next_joint(const struct contact_law *law, double d)
 {
     double w = d / law->parameters[YIELD_DEPTH];
     double joint = w < PLASTIC_FROM ? PLASTIC_FROM : w < PLASTIC_FULL ? PLASTIC_FULL : INFINITY;
     return joint * law->parameters[YIELD_DEPTH];
 }
 
-static double yield_depth(const struct contact_law *law)
+static double closed_form_yield_depth(const struct contact_law *law)
 {
     return law->parameters[YIELD_DEPTH];
 }
 
-static double residual_depth(const struct contact_law *law, double d)
+static double closed_form_residual_depth(const struct contact_law *law, double d)
 {
     double w = d / law->parameters[YIELD_DEPTH];
     if (!(w > 1.0))
@@ -202,7 +202,7 @@ static double residual_depth(const struct contact_law *law, double d)
     return d * (1.0 - back) * t * t * (3.0 - 2.0 * t);
 }
 
-static double contact_radius(const struct contact_law *law, double d)
+static double closed_form_contact_radius(const struct contact_law *law, double d)
 {
     double w = d / law->parameters[YIELD_DEPTH];
     double growth = w > PLASTIC_FROM ? pow(w / PLASTIC_FROM, law->parameters[GROWTH]) : 1.0;
@@ -217,28 +217,28 @@ static double branch(const struct contact_law *law, double x, double *slope)
     return x * root;
 }
 
-static double branch_work(const struct contact_law *law, double x)
+static double closed_form_branch_work(const struct contact_law *law, double x)
 {
     (void)law;
     return 0.4 * x * x * sqrt(x);
 }
 
 /* The depth of yield goes like the square of the stress. */
-static void rescale(struct contact_law *law, double force, double yield)
+static void closed_form_rescale(struct contact_law *law, double force, double yield)
 {
     law->parameters[STIFFNESS] *= force;
     law->parameters[YIELD_DEPTH] *= yield * yield;
 }
 
-static const struct plastic_curve curve = {
-    .force = loading_force,
-    .work = loading_work,
-    .joint = next_joint,
-    .yield = yield_depth,
-    .residual = residual_depth,
-    .radius = contact_radius,
+static const struct plastic_curve closed_form_curve = {
+    .force = closed_form_loading_force,
+    .work = closed_form_loading_work,
+    .joint = closed_form_next_joint,
+    .yield = closed_form_yield_depth,
+    .residual = closed_form_residual_depth,
+    .radius = closed_form_contact_radius,
     .branch = branch,
-    .branch_work = branch_work,
+    .branch_work = closed_form_branch_work,
 };
 
 const struct contact_law_operations contact_law_CLOSED_FORM = {
@@ -249,8 +249,8 @@ const struct contact_law_operations contact_law_CLOSED_FORM = {
     .force = plastic_force,
     .stored = plastic_stored,
     .indentation = plastic_indentation,
-    .curve = &curve,
-    .rescale = rescale,
+    .curve = &closed_form_curve,
+    .rescale = closed_form_rescale,
 };
 
 struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,

@@ -48,14 +48,14 @@ static double hertz_indentation(const struct contact_law *law, double force)
     return root * root;
 }
 
-static void rescale(struct contact_law *law, double force, double yield)
+static void hertz_rescale(struct contact_law *law, double force, double yield)
 {
     (void)yield;
     law->parameters[0] *= force;
 }
 
-static struct contact_law make(const struct hertz_contact *hertz, const struct material *a,
-                               const struct material *b)
+static struct contact_law hertz_make(const struct hertz_contact *hertz, const struct material *a,
+                                     const struct material *b)
 {
     (void)a, (void)b;
     return contact_law_hertz(hertz->stiffness);
@@ -64,7 +64,7 @@ static struct contact_law make(const struct hertz_contact *hertz, const struct m
 const struct contact_law_operations contact_law_HERTZ = {
     .model = PERCUSS_CONTACT_HERTZ,
     .effort = CONTACT_EFFORT_LEAST,
-    .make = make,
+    .make = hertz_make,
     .title = "elastic Hertz contact",
     .three_halves = true,
     .elliptic = true,
@@ -72,7 +72,7 @@ const struct contact_law_operations contact_law_HERTZ = {
     .forces = hertz_forces,
     .stored = hertz_stored,
     .indentation = hertz_indentation,
-    .rescale = rescale,
+    .rescale = hertz_rescale,
 };
 
 struct contact_law contact_law_hertz(double stiffness)

@@ -19,21 +19,21 @@ static double linear_indentation(const struct contact_law *law, double force)
     return force / law->parameters[0];
 }
 
-static void rescale(struct contact_law *law, double force, double yield)
+static void linear_rescale(struct contact_law *law, double force, double yield)
 {
     (void)yield;
     law->parameters[0] *= force;
 }
 
-static const struct contact_law_operations operations = {
+static const struct contact_law_operations linear_operations = {
     .model = PERCUSS_CONTACT_AUTO,
     .force = linear_force,
     .stored = linear_stored,
     .indentation = linear_indentation,
-    .rescale = rescale,
+    .rescale = linear_rescale,
 };
 
 struct contact_law contact_law_linear(double stiffness)
 {
-    return (struct contact_law){.operations = &operations, .parameters = {stiffness}};
+    return (struct contact_law){.operations = &linear_operations, .parameters = {stiffness}};
 }

@@ -60,7 +60,7 @@ static double loading_near(const struct contact_law *law, size_t *segment, doubl
     return force * unit[FORCE];
 }
 
-static double loading_force(const struct contact_law *law, double d, double *slope)
+static double table_loading_force(const struct contact_law *law, double d, double *slope)
 {
     size_t segment = 0;
     return loading_near(law, &segment, d, slope);
@@ -90,13 +90,13 @@ static double table_work(const struct contact_curves *curves, double d)
            curves_work_on(loading, loading, 0.0, i, (double[]){loading->place[i], d});
 }
 
-static double loading_work(const struct contact_law *law, double d)
+static double table_loading_work(const struct contact_law *law, double d)
 {
     const double *unit = law->parameters;
     return table_work(curves_of(law), d / unit[LENGTH]) * unit[LENGTH] * unit[FORCE];
 }
 
-static double next_joint(const struct contact_law *law, double d)
+static double table_next_joint(const struct contact_law *law, double d)
 {
     double unit = law->parameters[LENGTH];
     const double *joint = curves_of(law)->joints;
@@ -105,12 +105,12 @@ static double next_joint(const struct contact_law *law, double d)
     return *joint * unit;
 }
 
-static double yield_depth(const struct contact_law *law)
+static double table_yield_depth(const struct contact_law *law)
 {
     return curves_of(law)->branches ? curves_of(law)->yield * law->parameters[LENGTH] : INFINITY;
 }
 
-static double residual_depth(const struct contact_law *law, double d)
+static double table_residual_depth(const struct contact_law *law, double d)
 {
     const struct contact_curves *curves = curves_of(law);
     double depth = d / law->parameters[LENGTH];
@@ -123,7 +123,7 @@ static double residual_depth(const struct contact_law *law, double d)
     return d * (1.0 - back * (at > last ? exp(0.5 * (last - at)) : 1.0));
 }
 
-static double contact_radius(const struct contact_law *law, double d)
+static double table_contact_radius(const struct contact_law *law, double d)
 {
     const double *unit = law->parameters;
     double slope;
@@ -199,7 +199,7 @@ static void table_forces(const struct contact_law *law,
     }
 }
 
-static double branch_work(const struct contact_law *law, double x)
+static double table_branch_work(const struct contact_law *law, double x)
 {
     const struct spline *pair[2];
     double mix = branches_of(law, pair);
@@ -213,7 +213,7 @@ static double branch_work(const struct contact_law *law, double x)
 
 /* Strains scale with the stress of yield, see family.h: depths with its square, forces with its
  * cube and contact radii with itself, so that Hertz's part stays what it is. */
-static void rescale(struct contact_law *law, double force, double yield)
+static void table_rescale(struct contact_law *law, double force, double yield)
 {
     law->parameters[LENGTH] *= yield * yield;
     law->parameters[FORCE] *= force * yield * yield * yield;
@@ -285,16 +285,16 @@ static size_t next_knots(const struct contact_law *law, double from, double to,
     return knots_on(&curve, from, to, knots);
 }
 
-static const struct plastic_curve curve = {
-    .force = loading_force,
-    .work = loading_work,
-    .joint = next_joint,
+static const struct plastic_curve table_curve = {
+    .force = table_loading_force,
+    .work = table_loading_work,
+    .joint = table_next_joint,
     .knots = next_knots,
-    .yield = yield_depth,
-    .residual = residual_depth,
-    .radius = contact_radius,
+    .yield = table_yield_depth,
+    .residual = table_residual_depth,
+    .radius = table_contact_radius,
     .branch = branch_share,
-    .branch_work = branch_work,
+    .branch_work = table_branch_work,
 };
 
 const struct contact_law_operations contact_law_TABLE = {
@@ -308,8 +308,8 @@ const struct contact_law_operations contact_law_TABLE = {
     .forces = table_forces,
     .stored = plastic_stored,
     .indentation = plastic_indentation,
-    .curve = &curve,
-    .rescale = rescale,
+    .curve = &table_curve,
+    .rescale = table_rescale,
 };
 
 struct contact_law contact_law_table_in(const struct contact_curves *curves, double length,
