@@ -32,7 +32,7 @@ static struct arena_block *block_create(size_t at_least)
     return block;
 }
 
-static void use(struct arena *arena, struct arena_block *block)
+static void arena_use(struct arena *arena, struct arena_block *block)
 {
     arena->current = block;
     arena->next = block ? block->bytes : NULL;
@@ -40,12 +40,12 @@ static void use(struct arena *arena, struct arena_block *block)
 }
 
 /* Goes on to the next block with more room than that, old ones first. False: out of memory. */
-static bool make_room(struct arena *arena, size_t bytes)
+static bool arena_make_room(struct arena *arena, size_t bytes)
 {
     if (bytes > SIZE_MAX - 4 * ALIGNMENT)
         return false;
     while (arena->left <= bytes && arena->current && arena->current->next)
-        use(arena, arena->current->next);
+        arena_use(arena, arena->current->next);
     if (arena->left > bytes)
         return true;
     struct arena_block *block = block_create(aligned(bytes + 1));
@@ -55,12 +55,12 @@ static bool make_room(struct arena *arena, size_t bytes)
         arena->current->next = block;
     else
         arena->first = block;
-    use(arena, block);
+    arena_use(arena, block);
     return true;
 }
 
 /* What is left are whole units, and more than what is asked for: there is room for its last one. */
-static inline void *reserve(struct arena *arena, size_t bytes)
+static inline void *arena_put_aside(struct arena *arena, size_t bytes)
 {
     void *memory = arena->next;
     arena->next += aligned(bytes);
@@ -73,8 +73,8 @@ static __attribute__((noinline)) void *reserve_elsewhere(struct arena *arena, si
                                                          size_t size)
 {
     size_t bytes;
-    if (!__builtin_mul_overflow(count, size, &bytes) && make_room(arena, bytes))
-        return reserve(arena, bytes);
+    if (!__builtin_mul_overflow(count, size, &bytes) && arena_make_room(arena, bytes))
+        return arena_put_aside(arena, bytes);
     arena->lacks = true;
     return NULL;
 }
@@ -91,7 +91,7 @@ void *arena_reserve(struct arena *arena, size_t count, size_t size)
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes) || bytes >= arena->left)
         return reserve_elsewhere(arena, count, size);
-    return reserve(arena, bytes);
+    return arena_put_aside(arena, bytes);
 }
 
 void *arena_take(struct arena *arena, size_t count, size_t size)
@@ -99,7 +99,7 @@ void *arena_take(struct arena *arena, size_t count, size_t size)
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes) || bytes >= arena->left)
         return take_elsewhere(arena, count, size);
-    unsigned char *memory = reserve(arena, bytes);
+    unsigned char *memory = arena_put_aside(arena, bytes);
     if (bytes > SMALL)
         return memset(memory, 0, bytes);
     for (unsigned char *unit = memory; unit < memory + bytes; unit += ALIGNMENT)
@@ -110,7 +110,7 @@ void *arena_take(struct arena *arena, size_t count, size_t size)
 void arena_reset(struct arena *arena)
 {
     arena->lacks = false;
-    use(arena, arena->first);
+    arena_use(arena, arena->first);
 }
 
 void arena_release(struct arena *arena)

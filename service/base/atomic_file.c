@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static enum percuss_status refuse(const char *name, int reason, struct fault *fault)
+static enum percuss_status atomic_file_refuse(const char *name, int reason, struct fault *fault)
 {
     fault_set(fault, PERCUSS_BAD_REQUEST, "%.400s: cannot be written: %s", name, strerror(reason));
     errno = reason;
@@ -32,15 +32,15 @@ enum percuss_status atomic_file_begin(struct atomic_file *file, const char *path
     char folder[ATOMIC_FILE_SIZE];
     file->path = path;
     if (snprintf(file->aside, sizeof file->aside, "%s.part", path) >= (int)sizeof file->aside)
-        return refuse(path, ENAMETOOLONG, fault);
+        return atomic_file_refuse(path, ENAMETOOLONG, fault);
     /* a device or a folder is not replaced */
     if (lstat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISLNK(about.st_mode))
-        return refuse(path, S_ISDIR(about.st_mode) ? EISDIR : EEXIST, fault);
+        return atomic_file_refuse(path, S_ISDIR(about.st_mode) ? EISDIR : EEXIST, fault);
     name_folder(path, folder);
     if (access(folder, W_OK | X_OK) != 0)
-        return refuse(folder, errno, fault);
+        return atomic_file_refuse(folder, errno, fault);
     if (unlink(file->aside) != 0 && errno != ENOENT)
-        return refuse(file->aside, errno, fault);
+        return atomic_file_refuse(file->aside, errno, fault);
     return PERCUSS_OK;
 }
 
@@ -52,7 +52,7 @@ int atomic_file_create(struct atomic_file *file, const char *path, unsigned mode
     int descriptor =
         open(file->aside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, (mode_t)mode);
     if (descriptor < 0)
-        refuse(file->aside, errno, fault);
+        atomic_file_refuse(file->aside, errno, fault);
     return descriptor;
 }
 
@@ -86,7 +86,7 @@ static bool synchronise(const char *path)
 enum percuss_status atomic_file_rename(const char *from, const char *path, struct fault *fault)
 {
     if (!synchronise(from) || rename(from, path) != 0)
-        return refuse(path, errno, fault);
+        return atomic_file_refuse(path, errno, fault);
     return atomic_file_sync_folder(path, fault);
 }
 
@@ -97,7 +97,7 @@ enum percuss_status atomic_file_finish(const struct atomic_file *file, bool dura
     if (durable)
         status = atomic_file_rename(file->aside, file->path, fault);
     else if (rename(file->aside, file->path) != 0)
-        status = refuse(file->path, errno, fault);
+        status = atomic_file_refuse(file->path, errno, fault);
     if (status)
         atomic_file_abandon(file);
     return status;

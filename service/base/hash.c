@@ -9,29 +9,29 @@
 static const uint64_t MULTIPLIER_FIRST = 0x87c37b91114253d5u;
 static const uint64_t MULTIPLIER_SECOND = 0x4cf5ad432745937fu;
 
-static uint64_t rotate(uint64_t x, int by)
+static uint64_t hash_rotate(uint64_t x, int by)
 {
     return x << by | x >> (64 - by);
 }
 
-static uint64_t finish(uint64_t x)
+static uint64_t hash_finish(uint64_t x)
 {
     x = (x ^ x >> 33) * 0xff51afd7ed558ccdu;
     x = (x ^ x >> 33) * 0xc4ceb9fe1a85ec53u;
     return x ^ x >> 33;
 }
 
-static inline void mix(struct hasher *hasher, uint64_t first, uint64_t second)
+static inline void hash_mix(struct hasher *hasher, uint64_t first, uint64_t second)
 {
-    hasher->first ^= rotate(first * MULTIPLIER_FIRST, 31) * MULTIPLIER_SECOND;
-    hasher->first = (rotate(hasher->first, 27) + hasher->second) * 5 + 0x52dce729;
-    hasher->second ^= rotate(second * MULTIPLIER_SECOND, 33) * MULTIPLIER_FIRST;
-    hasher->second = (rotate(hasher->second, 31) + hasher->first) * 5 + 0x38495ab5;
+    hasher->first ^= hash_rotate(first * MULTIPLIER_FIRST, 31) * MULTIPLIER_SECOND;
+    hasher->first = (hash_rotate(hasher->first, 27) + hasher->second) * 5 + 0x52dce729;
+    hasher->second ^= hash_rotate(second * MULTIPLIER_SECOND, 33) * MULTIPLIER_FIRST;
+    hasher->second = (hash_rotate(hasher->second, 31) + hasher->first) * 5 + 0x38495ab5;
 }
 
 static inline void mix_number(struct hasher *hasher, uint64_t number)
 {
-    mix(hasher, number, ++hasher->length);
+    hash_mix(hasher, number, ++hasher->length);
 }
 
 /* What goes in are words of 8 bytes, two at a time and zeros behind the last; lengths that are
@@ -45,7 +45,7 @@ void hash_bytes(struct hasher *hasher, const void *data, size_t size)
     for (; size >= 2 * WORD; size -= 2 * WORD, at += 2 * WORD) {
         uint64_t words[2];
         memcpy(words, at, sizeof words);
-        mix(&mixed, words[0], words[1]);
+        hash_mix(&mixed, words[0], words[1]);
     }
     if (size > 0) {
         uint64_t words[2] = {0};
@@ -54,7 +54,7 @@ void hash_bytes(struct hasher *hasher, const void *data, size_t size)
             memcpy(words, at, WORD);
         if (size % WORD)
             memcpy(words + whole, at + whole * WORD, size % WORD);
-        mix(&mixed, words[0], words[1]);
+        hash_mix(&mixed, words[0], words[1]);
     }
     *hasher = mixed;
 }
@@ -71,7 +71,7 @@ void hash_number(struct hasher *hasher, uint64_t number)
 
 struct digest hash_digest(const struct hasher *hasher)
 {
-    uint64_t first = finish((hasher->first ^ hasher->length) + hasher->second);
-    uint64_t second = finish(hasher->second + first);
+    uint64_t first = hash_finish((hasher->first ^ hasher->length) + hasher->second);
+    uint64_t second = hash_finish(hasher->second + first);
     return (struct digest){first + second, second + 2 * first};
 }

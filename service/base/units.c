@@ -93,7 +93,7 @@ const char *units_known(size_t number, int *prefixed)
     return UNITS[number].name;
 }
 
-static size_t digits(const char *text)
+static size_t units_digits(const char *text)
 {
     return strspn(text, "0123456789");
 }
@@ -104,17 +104,17 @@ static const char *exponent_end(const char *text)
     if (*text != 'e' && *text != 'E')
         return text;
     const char *at = text + 1 + (text[1] == '+' || text[1] == '-');
-    return digits(at) > 0 ? at + digits(at) : text;
+    return units_digits(at) > 0 ? at + units_digits(at) : text;
 }
 
 /* Where the digits before an exponent end. */
 static const char *mantissa_end(const char *text)
 {
     const char *at = text + (*text == '+' || *text == '-');
-    size_t whole = digits(at), fraction = 0;
+    size_t whole = units_digits(at), fraction = 0;
     at += whole;
     if (*at == '.') {
-        fraction = digits(at + 1);
+        fraction = units_digits(at + 1);
         at += 1 + fraction;
     }
     return whole + fraction > 0 ? at : text;
@@ -141,7 +141,7 @@ static const struct unit *find_plain(const char *text, size_t length, bool prefi
 }
 
 /* A unit by its name, with a prefix or without. */
-static bool find(const char *text, size_t length, struct unit *unit)
+static bool units_find(const char *text, size_t length, struct unit *unit)
 {
     const struct unit *plain = find_plain(text, length, false);
     if (plain)
@@ -172,13 +172,13 @@ static const char *read_power(const char *at, int *power)
     bool negative = *number == '-';
     number += negative;
     *power = 1;
-    if (digits(number) != 1)
+    if (units_digits(number) != 1)
         return at; /* a sign by itself is left, and is no unit */
     *power = negative ? '0' - *number : *number - '0';
     return number + 1;
 }
 
-static void multiply(struct unit *product, const struct unit *unit, int power)
+static void units_multiply(struct unit *product, const struct unit *unit, int power)
 {
     for (int i = 0; i < abs(power); i++) {
         product->numerator *= power > 0 ? unit->numerator : unit->denominator;
@@ -220,11 +220,11 @@ static bool read_units(const char *at, struct unit *product)
         size_t length = name_length(at);
         if (i == 0 && at[0] == '1' && at[1] == '/')
             at++;
-        else if (!find(at, length, &unit))
+        else if (!units_find(at, length, &unit))
             return false;
         else
             at = read_power(at + length, &power);
-        multiply(product, &unit, inverse ? -power : power);
+        units_multiply(product, &unit, inverse ? -power : power);
         /* another one, or the end */
         if (!at[strspn(at, " ")])
             return true;
@@ -248,7 +248,7 @@ static double read_scaled(const char *text, const char *end, int ten)
     return length < NUMBER_SIZE ? strtod(decimal, NULL) : NAN;
 }
 
-static double read_value(const char *text, const char *end, const struct unit *unit)
+static double units_read_value(const char *text, const char *end, const struct unit *unit)
 {
     if (unit->numerator == 1.0 && unit->denominator == 1.0)
         return unit->ten == 0 ? strtod(text, NULL) : read_scaled(text, end, unit->ten);
@@ -272,7 +272,7 @@ enum units_problem units_read(const char *text, enum quantity quantity, double *
         (quantity == QUANTITY_NUMBER || unit.mass != QUANTITIES[quantity].mass ||
          unit.length != QUANTITIES[quantity].length || unit.time != QUANTITIES[quantity].time))
         return UNITS_OF_ANOTHER;
-    *value = read_value(text, end, &unit) + 0.0;
+    *value = units_read_value(text, end, &unit) + 0.0;
     return isfinite(*value) ? UNITS_GOOD : UNITS_NO_NUMBER;
 }
 
