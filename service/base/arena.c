@@ -9,7 +9,7 @@
 
 enum { ALIGNMENT = 32, BLOCK_SIZE = 1 << 18 };
 
-/* A few pieces that small are cleared faster than by a call. */
+/* Pieces of at most this size are cleared faster by a loop than by a call. */
 enum { SMALL = 4 * ALIGNMENT };
 
 struct arena_block {
@@ -39,7 +39,7 @@ static void arena_use(struct arena *arena, struct arena_block *block)
     arena->left = block ? block->size : 0;
 }
 
-/* Goes on to the next block with more room than that, old ones first. False: out of memory. */
+/* Continues in a block with more than `bytes` free, old ones first. False: out of memory. */
 static bool arena_make_room(struct arena *arena, size_t bytes)
 {
     if (bytes > SIZE_MAX - 4 * ALIGNMENT)
@@ -59,7 +59,7 @@ static bool arena_make_room(struct arena *arena, size_t bytes)
     return true;
 }
 
-/* What is left are whole units, and more than what is asked for: there is room for its last one. */
+/* arena->left is a multiple of the alignment and exceeds `bytes`: the rounded size fits, too. */
 static inline void *arena_put_aside(struct arena *arena, size_t bytes)
 {
     void *memory = arena->next;
@@ -68,7 +68,7 @@ static inline void *arena_put_aside(struct arena *arena, size_t bytes)
     return memory;
 }
 
-/* Where the current block has no room; seldom, and kept out of what is often. */
+/* The current block has no room: a rare case, kept out of the inlined common one. */
 static __attribute__((noinline)) void *reserve_elsewhere(struct arena *arena, size_t count,
                                                          size_t size)
 {

@@ -13,13 +13,13 @@ struct arena_block;
 struct arena {
     struct arena_block *first; /* all blocks, kept for reuse */
     struct arena_block *current;
-    unsigned char *next; /* of the current block what is free, */
-    size_t left;         /* a multiple of the alignment */
-    bool lacks;          /* since the last reset memory was out: what was made of it is not whole */
+    unsigned char *next; /* free part of the current block, */
+    size_t left;         /* its bytes, a multiple of the alignment */
+    bool lacks;          /* memory was out since the last reset: results may be incomplete */
 };
 
 /* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory, which
- * arena->lacks remembers for who cannot say so at once. */
+ * arena->lacks records for callers that cannot return an error at once. */
 void *arena_take(struct arena *arena, size_t count, size_t size);
 
 /* The same, not zeroed. */

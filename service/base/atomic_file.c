@@ -61,7 +61,7 @@ enum percuss_status atomic_file_sync_folder(const char *path, struct fault *faul
     char folder[ATOMIC_FILE_SIZE];
     name_folder(path, folder);
     int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    /* some file systems have no such thing for folders, and some folders may not be read */
+    /* some file systems cannot synchronise folders, and some folders may not be read */
     bool good = file >= 0 ? fsync(file) == 0 || errno == EINVAL : errno == EACCES;
     int reason = errno;
     if (file >= 0)
@@ -71,7 +71,7 @@ enum percuss_status atomic_file_sync_folder(const char *path, struct fault *faul
                             folder, strerror(reason));
 }
 
-/* False: errno says why. */
+/* False: errno has the reason. */
 static bool synchronise(const char *path)
 {
     int file = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Files that are written as PATH.part and get their name when they are whole. No link is followed:
- * users who may write in the folder must not choose which file is written. */
+/* Files that are written as PATH.part and renamed to PATH when they are complete. No link is
+ * followed: other users with write access to the folder must not choose which file is written. */
 #ifndef PERCUSS_BASE_ATOMIC_FILE_H
 #define PERCUSS_BASE_ATOMIC_FILE_H
 
@@ -24,24 +24,25 @@ struct atomic_file {
 enum percuss_status atomic_file_begin(struct atomic_file *file, const char *path,
                                       struct fault *fault);
 
-/* The same, and creates the file, with that mode less the process's mask: its descriptor, or -1
- * with the fault. */
+/* The same, and creates the file with this mode less the process's mask. Returns its descriptor,
+ * or -1 with the fault. */
 int atomic_file_create(struct atomic_file *file, const char *path, unsigned mode,
                        struct fault *fault);
 
-/* The file as it is written gets its name, in place of a file or link that has it. `durable`: file
- * and name are on the disk first. After a fault PATH.part is removed; the former file is left,
- * unless only the name may be lost with the power. PERCUSS_BAD_REQUEST, as above. */
+/* Renames PATH.part to PATH, which replaces a file or link of that name. `durable`: the file and
+ * its name are on the disk when it returns. After a fault PATH.part is removed and the former file
+ * is unchanged, except where only the folder could not be synchronised. PERCUSS_BAD_REQUEST, as
+ * above. */
 enum percuss_status atomic_file_finish(const struct atomic_file *file, bool durable,
                                        struct fault *fault);
 
-/* Removes PATH.part; the former file is left. */
+/* Removes PATH.part; the former file is unchanged. */
 void atomic_file_abandon(const struct atomic_file *file);
 
-/* Gives a whole file its name, durably. */
+/* Renames a complete file durably. */
 enum percuss_status atomic_file_rename(const char *from, const char *path, struct fault *fault);
 
-/* Has the names in a file's folder on the disk: until then a loss of power may undo a rename. */
+/* Writes the names in a file's folder to the disk: before, a loss of power may undo a rename. */
 enum percuss_status atomic_file_sync_folder(const char *path, struct fault *fault);
 
 #endif

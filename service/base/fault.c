@@ -6,8 +6,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* What files and requests hold goes into messages, and these to terminals and logs: no control
- * characters. */
+/* Messages quote files and requests, and go to terminals and logs: control characters are
+ * replaced. */
 static void make_plain(char *text)
 {
     for (; *text; text++)

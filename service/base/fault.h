@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What went wrong, in words for the person who asked. */
+/* Error messages for users, and the names of statuses and choices. */
 #ifndef PERCUSS_BASE_FAULT_H
 #define PERCUSS_BASE_FAULT_H
 

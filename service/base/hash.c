@@ -34,8 +34,8 @@ static inline void mix_number(struct hasher *hasher, uint64_t number)
     hash_mix(hasher, number, ++hasher->length);
 }
 
-/* What goes in are words of 8 bytes, two at a time and zeros behind the last; lengths that are
- * known here cost no call. */
+/* Mixes words of 8 bytes, two at a time, with zeros behind the last; copies of constant size cost
+ * no call. */
 void hash_bytes(struct hasher *hasher, const void *data, size_t size)
 {
     enum { WORD = sizeof(uint64_t) };

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A 128-bit hash of what a request or a state says. The bits mix as in MurmurHash3 x64 128 (Austin
- * Appleby, public domain), which is fast and spreads well but does not resist an attacker: whoever
- * looks something up by hash compares the content where a mistake would matter. */
+/* A 128-bit hash of the content of a request or a state. The bits mix as in MurmurHash3 x64 128
+ * (Austin Appleby, public domain), which is fast and spreads well but does not resist an attacker:
+ * look-ups compare the content where a collision would matter. */
 #ifndef PERCUSS_BASE_HASH_H
 #define PERCUSS_BASE_HASH_H
 
@@ -24,7 +24,7 @@ void hash_bytes(struct hasher *hasher, const void *data, size_t size);
 void hash_text(struct hasher *hasher, const char *text);
 void hash_number(struct hasher *hasher, uint64_t number);
 
-/* The hash of everything that went in. */
+/* The hash of all pieces so far. */
 struct digest hash_digest(const struct hasher *hasher);
 
 #endif

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* SHA-256 (FIPS 180-4): the name of what something was made from. */
+/* SHA-256 (FIPS 180-4): identifies the files from which a result was computed. */
 #ifndef PERCUSS_BASE_SHA256_H
 #define PERCUSS_BASE_SHA256_H
 
@@ -18,7 +18,7 @@ struct sha256 {
 
 struct sha256 sha256_begin(void);
 void sha256_add(struct sha256 *hash, const void *data, size_t size);
-/* In hexadecimal, with its zero; nothing can be added after. */
+/* Writes the hash in hexadecimal, zero-terminated; no bytes can be added afterwards. */
 void sha256_end(struct sha256 *hash, char text[SHA256_TEXT]);
 
 #endif

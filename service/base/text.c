@@ -16,13 +16,13 @@ static const double POWERS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 enum { HIGHEST_POWER = sizeof POWERS / sizeof *POWERS - 1 };
 
-/* With more digits their own rounding is not far from that of the double. */
+/* With more digits their rounding is comparable with that of the double. */
 enum { MOST_DIGITS = 9 };
-/* Larger than what one rounding moves a number of so many digits by. */
+/* Exceeds the rounding error of a number of so many digits. */
 static const double ROUNDING = 1e-6;
 /* log10(2) */
 static const double DIGITS_PER_BIT = 0.30102999566398120;
-/* %g leaves the exponent out from this one on. */
+/* %g writes no exponent from this one on. */
 enum { LEAST_PLAIN = -4 };
 
 /* A number's first digits as an integer, the last of them rounded, and the power of ten of the
@@ -75,8 +75,8 @@ void text_format(struct text *text, const char *format, ...)
     text->left -= written;
 }
 
-/* False: too near the middle between two decimals, or outside the powers, to tell by a product of
- * doubles. The value is > 0. */
+/* Rounds a value > 0. False: it is outside the table of powers, or too near the middle between two
+ * decimals for a product of doubles to decide. */
 static bool to_decimal(double value, int digits, struct decimal *decimal)
 {
     /* the power of ten, or one less than it, from that of two */
@@ -103,8 +103,8 @@ static bool to_decimal(double value, int digits, struct decimal *decimal)
     }
 }
 
-/* The digits, the point where it belongs, no zeros behind it, and an exponent where the number is
- * too large or too small for none. */
+/* Writes as %g does: no trailing zeros, and an exponent where the number is too large or too
+ * small. */
 static void add_decimal(struct text *text, struct decimal decimal, int digits)
 {
     char out[40];

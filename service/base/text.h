@@ -1,16 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A text put together in a buffer, by pieces and numbers: what every answer says, without the cost
- * of formats. What does not fit is cut off; the text always ends. */
+/* A text that is assembled in a buffer from strings and numbers, without the cost of printf. It is
+ * cut at the buffer's end and always zero-terminated. */
 #ifndef PERCUSS_BASE_TEXT_H
 #define PERCUSS_BASE_TEXT_H
 
 #include <stddef.h>
 
 struct text {
-    char *at;    /* its end */
-    size_t left; /* room there, that of the final zero included */
+    char *at;    /* end of the text */
+    size_t left; /* room there, with that of the final zero */
 };
 
 /* An empty text in a buffer of at least a byte. */

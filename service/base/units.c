@@ -98,7 +98,7 @@ static size_t units_digits(const char *text)
     return strspn(text, "0123456789");
 }
 
-/* Where an exponent ends that begins here; the text itself: none does. */
+/* End of the exponent that begins here; the text itself: none begins. */
 static const char *exponent_end(const char *text)
 {
     if (*text != 'e' && *text != 'E')
@@ -107,7 +107,7 @@ static const char *exponent_end(const char *text)
     return units_digits(at) > 0 ? at + units_digits(at) : text;
 }
 
-/* Where the digits before an exponent end. */
+/* End of the digits before an exponent. */
 static const char *mantissa_end(const char *text)
 {
     const char *at = text + (*text == '+' || *text == '-');
@@ -173,7 +173,7 @@ static const char *read_power(const char *at, int *power)
     number += negative;
     *power = 1;
     if (units_digits(number) != 1)
-        return at; /* a sign by itself is left, and is no unit */
+        return at; /* a lone sign remains and is refused as a unit */
     *power = negative ? '0' - *number : *number - '0';
     return number + 1;
 }
@@ -190,7 +190,7 @@ static void units_multiply(struct unit *product, const struct unit *unit, int po
     product->time += power * unit->time;
 }
 
-/* A sign between two units, with the blanks about it. *inverse: a slash. */
+/* A sign between two units, with the blanks around it. *inverse: a slash. */
 static const char *read_sign(const char *at, bool *inverse)
 {
     const char *start = at;
@@ -201,7 +201,8 @@ static const char *read_sign(const char *at, bool *inverse)
     return at > start ? at : NULL;
 }
 
-/* Of letters; the micro sign begins with the same byte as the raised digits, which end a name. */
+/* Length of a unit's name; the micro sign begins with the same byte as the raised digits, which end
+ * a name. */
 static size_t name_length(const char *at)
 {
     size_t micro = begins(at, strlen(at), "\xC2\xB5") ? 2 : 0;
@@ -214,7 +215,7 @@ static bool read_units(const char *at, struct unit *product)
     bool inverse = false;
     *product = (struct unit){.numerator = 1.0, .denominator = 1.0};
     for (int i = 0; i < MOST_FACTORS; i++) {
-        /* a name and its power; a one only where the units begin */
+        /* a name and its power; "1/" is allowed at the beginning only */
         struct unit unit = {.numerator = 1.0, .denominator = 1.0};
         int power = 1;
         size_t length = name_length(at);
@@ -225,7 +226,7 @@ static bool read_units(const char *at, struct unit *product)
         else
             at = read_power(at + length, &power);
         units_multiply(product, &unit, inverse ? -power : power);
-        /* another one, or the end */
+        /* another unit, or the end */
         if (!at[strspn(at, " ")])
             return true;
         at = read_sign(at, &inverse);
@@ -235,13 +236,13 @@ static bool read_units(const char *at, struct unit *product)
     return false;
 }
 
-/* The number, whose text ends at `end`, times 10^ten: rounded once. NAN: too long a text. */
+/* The number up to `end` times 10^ten, rounded once. NAN: the text is too long. */
 static double read_scaled(const char *text, const char *end, int ten)
 {
     char decimal[NUMBER_SIZE];
     const char *mantissa = mantissa_end(text);
     long exponent = end > mantissa ? strtol(mantissa + 1, NULL, 10) : 0;
-    /* an exponent this long gives 0 or no finite number, whatever stands before it */
+    /* a larger exponent gives 0 or no finite number with any mantissa */
     exponent = exponent > 100000 ? 100000 : exponent < -100000 ? -100000 : exponent;
     int length =
         snprintf(decimal, sizeof decimal, "%.*se%ld", (int)(mantissa - text), text, exponent + ten);
@@ -252,7 +253,7 @@ static double units_read_value(const char *text, const char *end, const struct u
 {
     if (unit->numerator == 1.0 && unit->denominator == 1.0)
         return unit->ten == 0 ? strtod(text, NULL) : read_scaled(text, end, unit->ten);
-    /* whole factors, so that a product and a quotient are all that is rounded */
+    /* integer factors: only the product and the quotient are rounded */
     double up = unit->ten > 0 ? pow(10.0, unit->ten) : 1.0;
     double down = unit->ten < 0 ? pow(10.0, -unit->ten) : 1.0;
     return strtod(text, NULL) * (unit->numerator * up) / (unit->denominator * down);
@@ -265,7 +266,7 @@ enum units_problem units_read(const char *text, enum quantity quantity, double *
     const char *name = end + strspn(end, " ");
     if (end == text)
         return UNITS_NO_NUMBER;
-    /* what it is of, unless it stands alone */
+    /* the unit, if there is one, and its quantity */
     if (*name && !read_units(name, &unit))
         return UNITS_UNKNOWN;
     if (*name &&

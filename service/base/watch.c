@@ -10,7 +10,7 @@ bool pace_ask(struct pace *pace, double done)
     const struct watch *watch = pace->watch;
     if (!pace->stopped && watch && watch->proceed)
         pace->stopped = !watch->proceed(watch->context, done);
-    /* whoever asks again hears the same at once */
+    /* once stopped, the next count of work asks again and gets the same answer */
     pace->work = pace->stopped ? PACE_WORK : 0.0;
     return !pace->stopped;
 }
