@@ -34,11 +34,12 @@ bool band_factor_trailing(struct band *band, const struct band *leading, size_t 
 void band_forward(const struct band *factor, size_t first, size_t end, double *b);
 void band_backward(const struct band *factor, size_t first, size_t end, double *b);
 
-/* Takes what rows before `first` with the solution y contribute to rows `first` and beyond:
- * b -= L_21 y. y and b are indexed from row 0. */
+/* Subtracts the contribution of rows before `first`, with the solution y, from rows `first` and
+ * beyond: b -= L_21 y. y and b are indexed from row 0. */
 void band_carry_forward(const struct band *factor, size_t first, const double *y, double *b);
 
-/* The same for the backward solve: rows before `first` lose what rows beyond contribute. */
+/* The same for the backward solve: subtracts the contribution of rows `first` and beyond from the
+ * rows before. */
 void band_carry_backward(const struct band *factor, size_t first, const double *y, double *b);
 
 #endif

@@ -110,7 +110,7 @@ static bool lemke(struct tableau *t)
             first = i;
     if (lcp_row_of(t, first)[t->width - 1] >= 0.0)
         return true;
-    /* the complement of what left enters, until z0 leaves */
+    /* the complement of the variable that left enters, until z0 leaves */
     size_t left = t->basis[first];
     pivot(t, first, 2 * n);
     for (size_t i = 0; i < 50 * n + 100; i++) {
@@ -126,9 +126,9 @@ static bool lemke(struct tableau *t)
     return false;
 }
 
-/* The final basis solved afresh, without the tableau's rounding: m_BB z_B = -q_B with the raised
- * diagonal, and refinement that takes the raise out again (from near-singular groups, whose large
- * impulses it would falsify). Where it is singular after all the tableau's values stay. */
+/* Solves the final basis again, without the tableau's rounding: m_BB z_B = -q_B with the raised
+ * diagonal, then refinement without the raise, which would falsify the large impulses of
+ * near-singular groups. Where the basis is singular the tableau's values stay. */
 static void lcp_polish(const struct tableau *t, const double *m, const double *q, double *z)
 {
     size_t n = t->n;
@@ -137,12 +137,12 @@ static void lcp_polish(const struct tableau *t, const double *m, const double *q
     double *b = t->b;
     size_t count = 0;
     bool done = true;
-    /* which z are basic */
+    /* the basic z */
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++)
             if (t->basis[i] == n + j)
                 list[count++] = j;
-    /* solve, then correct by what is left of the true equations */
+    /* solve, then correct by the residual of the true equations */
     for (int round = 0; done && round < 4; round++) {
         for (size_t i = 0; i < count; i++) {
             b[i] = -q[list[i]];
@@ -160,7 +160,7 @@ static void lcp_polish(const struct tableau *t, const double *m, const double *q
         z[list[i]] = fmax(0.0, z[list[i]]);
 }
 
-/* The independent judge: complementarity of the answer itself. */
+/* Independent check: complementarity of the answer itself. */
 static bool solves(size_t n, const double *m, const double *q, const double *z)
 {
     double scale = 0.0;

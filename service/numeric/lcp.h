@@ -9,7 +9,8 @@
 
 /* Lemke's method with the lexicographic ratio test for an n x n row-major symmetric positive
  * semidefinite m; its diagonal is raised by 1e-10 of itself so that singular matrices are safe. z
- * receives the solution, or what is nearest to one (its residual exceeds 1e-8 of max |q|). */
+ * receives the solution, or with LCP_UNSOLVED an approximation with a residual above 1e-8 of max
+ * |q|. */
 enum lcp_outcome { LCP_SOLVED, LCP_UNSOLVED, LCP_NO_MEMORY };
 enum lcp_outcome lcp_solve(size_t n, const double *m, const double *q, double *z);
 

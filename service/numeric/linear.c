@@ -10,7 +10,7 @@
 #include <string.h>
 #include <threads.h>
 
-/* The buffers that the lock guards are the process's, too. */
+/* A global, as the buffers that it guards are. */
 static once_flag linear_lock_made = ONCE_FLAG_INIT;
 static mtx_t linear_lock;
 

@@ -34,8 +34,8 @@ bool linear_packed_factor(size_t n, double *a);
 void linear_packed_solve(size_t n, const double *factor, double *x);
 
 /* One thread at a time in BLAS and LAPACK: Debian's serial OpenBLAS gives all threads the same
- * buffers (its blas_memory_alloc has no lock), so that two that factor at once get wrong numbers.
- * Every call of either stands between these two. */
+ * buffers (its blas_memory_alloc has no lock), so that two threads that factor at once get wrong
+ * numbers. Every call of either library stands between these two. */
 void linear_turn_begin(void);
 void linear_turn_end(void);
 

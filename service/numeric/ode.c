@@ -104,7 +104,7 @@ void ode_free(struct ode *ode)
 {
     if (!ode)
         return;
-    /* the integrator before what it works with */
+    /* the integrator before the objects that it uses */
     if (ode->cvode)
         CVodeFree(&ode->cvode);
     if (ode->fixed_point)

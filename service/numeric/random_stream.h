@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Random numbers as a function of where they are used, not of when: Philox 4x64-10 (Salmon et al.
- * 2011, SC11) from Random123. The same (seed, purpose, index, dimension) gives the same bits on any
- * worker, in any order. */
+/* Random numbers as a function of their place, not of the order of calls: Philox 4x64-10 (Salmon et
+ * al. 2011, SC11) from Random123. The same (seed, purpose, index, dimension) gives the same bits on
+ * any worker, in any order. */
 #ifndef PERCUSS_NUMERIC_RANDOM_STREAM_H
 #define PERCUSS_NUMERIC_RANDOM_STREAM_H
 
@@ -23,7 +23,7 @@ double random_uniform(const struct random_stream *stream, uint64_t index, uint64
 /* The same of 64 given bits. */
 double random_uniform_of(uint64_t bits);
 
-/* Place of `index` in a random permutation of 0 .. count - 1, computed by itself: a Feistel network
+/* Place of `index` in a random permutation of 0 .. count - 1, computed alone: a Feistel network
  * on the next power of four, walked until it falls below `count`. Permutations of different keys
  * (64 random bits) are independent. */
 uint64_t random_permute(uint64_t key, uint64_t index, uint64_t count);

@@ -153,8 +153,8 @@ double special_elliptic_rf0(double y, double z)
 
 double special_elliptic_rd0(double y, double z)
 {
-    /* duplication theorem until the arguments agree to 1e-3, then the fifth-order series whose
-     * error is below 3e-18 there (Carlson, Numerical computation of real or complex elliptic
+    /* duplication theorem until the arguments agree to 1e-3, then the fifth-order series,
+     * with an error below 3e-18 there (Carlson, Numerical computation of real or complex elliptic
      * integrals, 1995, section 2; DLMF 19.36.2) */
     double x = 0.0;
     double sum = 0.0;
@@ -172,7 +172,7 @@ double special_elliptic_rd0(double y, double z)
         z = 0.25 * (z + lambda);
         mean = (x + y + 3.0 * z) / 5.0;
     }
-    /* elementary symmetric functions of what is left between them */
+    /* elementary symmetric functions of the remaining differences */
     double dx = (mean - x) / mean;
     double dy = (mean - y) / mean;
     double dz = -(dx + dy) / 3.0;

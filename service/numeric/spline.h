@@ -13,8 +13,8 @@ struct spline {
     double *place, *value, *slope;
 };
 
-/* Slopes for monotone values: those of the spline with a continuous second derivative whose end
- * slopes are those of cubics, limited where it would not be monotone between two places (Fritsch
+/* Slopes for monotone values: those of the spline with a continuous second derivative and the
+ * end slopes of cubics, limited where it would not be monotone between two places (Fritsch
  * and Carlson, SIAM J. Numer. Anal. 17 (1980) 238). `scratch` holds 2 count. */
 void spline_set_slopes(struct spline *spline, double *scratch);
 
@@ -46,9 +46,9 @@ static inline double spline_third(const struct spline *spline, size_t i)
 /* Value on segment i; *slope becomes its derivative. */
 double spline_on(const struct spline *spline, size_t i, double x, double *slope);
 
-/* Value anywhere from the first place on; beyond the last one straight on. */
+/* Value anywhere from the first place on; linear beyond the last one. */
 double spline_at(const struct spline *spline, double x, double *slope);
-/* The same; *segment is looked at first, and becomes that of x. */
+/* The same; tries *segment first, which becomes that of x. */
 double spline_near(const struct spline *spline, size_t *segment, double x, double *slope);
 
 #endif
