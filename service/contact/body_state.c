@@ -11,7 +11,7 @@ void body_state_make_room(const struct roll *roll, struct body_state *sizes)
     size_t *z = y + 1;
     if (roll->sine != 0.0)
         *y = *z = *y > *z ? *y : *z;
-    /* what either lacks, both lack */
+    /* modes that one family does not know are unknown in both */
     y = &sizes->known[roll->first];
     z = y + 1;
     if (roll->sine != 0.0)

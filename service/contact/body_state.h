@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The vibration of a body at one instant and the dents in its surface: what a state token names. */
+/* State of a body, which a state token names: its vibration at one instant and the dents in its
+ * surface. */
 #ifndef PERCUSS_CONTACT_BODY_STATE_H
 #define PERCUSS_CONTACT_BODY_STATE_H
 
@@ -11,14 +12,14 @@
 #include "contact/law.h"
 #include "model/roll.h"
 
-/* A patch of the surface that yielded: contacts within `size` of its middle feel it. */
+/* A patch of the surface that yielded; it affects contacts within `size` of its middle. */
 struct dent {
     double point[3]; /* body frame, m */
     double size;     /* contact radius at the largest force, m */
     struct contact_history history;
 };
 
-/* Most dents that a state holds; the shallowest make place. */
+/* Most dents that a state holds; the shallowest are dropped. */
 enum { BODY_STATE_MAX_DENTS = 256 };
 
 /* Immutable. `coordinates` holds count[f] pairs (q, dq/dt), family after family, mass-normalised
@@ -27,11 +28,11 @@ enum { BODY_STATE_MAX_DENTS = 256 };
 struct body_state {
     size_t count[BODY_MOST_FAMILIES];
     size_t dents;
-    /* what the amplitudes may be wrong by, as shares of them: by modes and steps of the answers
-     * that left them, and by their models; 0: nothing is known of it */
+    /* relative errors of the amplitudes: by modes and steps of the answers that left them, and by
+     * their models; 0: not known */
     double unknown, unknown_model;
-    /* modes that took no part in one of those answers, from known[f] of a family on, were struck
-     * all the same: to a speed of phi abruptness omega^(-5/2) (start_error.c), N/s^(3/2) */
+    /* modes from known[f] of a family on were omitted in one of those answers, but excited: to a
+     * speed of phi abruptness omega^(-5/2) (start_error.c), N/s^(3/2) */
     double abruptness;
     size_t known[BODY_MOST_FAMILIES];
     double coordinates[];
@@ -66,14 +67,14 @@ static inline const struct dent *body_state_dents(const struct body_state *state
     return (const struct dent *)body_state_family(state, BODY_MOST_FAMILIES);
 }
 
-/* What sizes a state needs for the turn of a roll: as many modes in either family. */
+/* Enlarges the sizes of a state for its rotation by a roll: equal in both bending families. */
 void body_state_make_room(const struct roll *roll, struct body_state *sizes);
 
-/* A copy whose modes are those of the roll; dents stay. From the arena; NULL: out of memory. */
+/* A copy with the modes in the planes of the roll, from the arena; dents stay. NULL: no memory. */
 const struct body_state *body_state_turned(const struct body_state *state, const struct roll *roll,
                                            struct arena *arena);
 
-/* Turns a state with room for it back into the body's own planes. */
+/* Turns a state of such sizes back into the body's own planes. */
 void body_state_turn_back(const struct roll *roll, struct body_state *state);
 
 #endif

@@ -7,17 +7,16 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "contact/curves.h"
 #include "contact/law_closed_form.h"
 
 /* Points of the loading curve up to first yield, where it is Hertz's: the spline's bend at yield
  * reaches back over some of them. */
 enum { FAMILY_ELASTIC = 8 };
 
-/* Branches put in between first yield and the first sampled one, where a dent and what its branch
- * differs by from Hertz's begin with the square of the way: the first of them is Hertz's, at yield
- * but for rounding. Laws mix branches linearly: with fewer a blow there might give back more than
- * it brought. */
+/* Branches inserted between first yield and the first sampled one, where a dent and the deviation
+ * of its branch from Hertz's begin with the square of the way: the first of them is Hertz's, at
+ * yield but for rounding. Laws mix branches linearly: with fewer, an impact there might return more
+ * energy than it brought. */
 enum { FAMILY_ONSET = 8 };
 
 struct family_axis {
@@ -48,9 +47,9 @@ static size_t family_shape_numbers(const struct contact_family *family)
     return 2 * family->branches * family->samples;
 }
 
-/* Along the axes: the root of the hardening, as cubics through it hold both what grows like it and
- * what grows like the hardening; and a logarithm of the share, as curves bend ever more the smaller
- * it is (of the force at 900 times the yield's depth, hardening 0.1, it is straight within 6 %). */
+/* Coordinates along the axes: the root of the hardening, in which cubics represent functions of the
+ * root and of the hardening; and a logarithm of the share, as curves bend more the smaller it is
+ * (the force at 900 times the yield's depth, hardening 0.1, is linear in it within 6 %). */
 static double family_along(size_t axis, double value)
 {
     const double bend = 0.1;
@@ -79,7 +78,7 @@ static enum percuss_status family_check_axes(const struct contact_family_samples
                          "3 or more that rise from first yield, and no more branches than "
                          "unloadings",
                          samples->depths, samples->springs, samples->branches, samples->samples);
-    /* what is said of them */
+    /* their range and error */
     if (!(samples->computed > 1.0) || !(samples->error >= 0.0))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "family: computed up to %g with an error of %g: must be beyond first "
@@ -88,7 +87,7 @@ static enum percuss_status family_check_axes(const struct contact_family_samples
     return PERCUSS_OK;
 }
 
-/* Whether a table's curves are such as a law needs. */
+/* Whether a table's curves are valid for a law. */
 static bool family_is_sound(const struct contact_family_samples *samples, size_t table)
 {
     double force = 1.0;
@@ -103,7 +102,7 @@ static bool family_is_sound(const struct contact_family_samples *samples, size_t
         force = next;
         area = size;
     }
-    /* what springs back is a part of the depth */
+    /* the elastic recovery is a part of the depth */
     for (size_t i = 0; i < samples->springs; i++) {
         double back = samples->back[table * samples->springs + i];
         if (!(back > 0.0 && back <= 1.0))
@@ -135,7 +134,7 @@ static void family_fill_curves(const struct contact_family *family,
     struct spline radius = {n, family->depth, block + 2 * n, block + 3 * n};
     struct spline spring = {family->springs, family->log, block + 4 * n,
                             block + 4 * n + family->springs};
-    /* Hertz's curve up to yield, then what was sampled */
+    /* Hertz's curve up to yield, then the samples */
     for (size_t i = 0; i <= FAMILY_ELASTIC; i++)
         loading.value[i] = radius.value[i] = family->depth[i];
     for (size_t i = 0; i < samples->depths; i++) {
@@ -144,7 +143,7 @@ static void family_fill_curves(const struct contact_family *family,
         loading.value[to] = samples->depth[i] * curves_two_thirds(samples->force[from]);
         radius.value[to] = samples->depth[i] * samples->area[from];
     }
-    /* from all springs back at yield by the square of the way to the samples */
+    /* from full elastic recovery at yield, by the square of the way, to the samples */
     const double *back = samples->back + table * samples->springs;
     spring.value[0] = 1.0;
     for (size_t i = 0; i < FAMILY_ONSET; i++)
@@ -263,9 +262,10 @@ void contact_family_free(struct contact_family *family)
     free(family);
 }
 
-/* All tables share their places, so that the curves of a place between them are weighted means of
- * values and slopes: cubics along each axis for the loading curve, the contact's area and what
- * springs back; straight lines for the shape of the branches, which differs by a few hundredths. */
+/* A place in the family. All tables share their places, so that the curves of a place between them
+ * are weighted means of values and slopes: cubic along each axis for the loading curve, the
+ * contact's area and the elastic recovery; linear for the shape of the branches, which differs by a
+ * few hundredths. */
 enum { LINEAR = 2, CUBIC = 4 };
 
 static double family_plane_compliance(const struct material *material)
@@ -288,11 +288,11 @@ struct contact_family_place contact_family_place(const struct material *a, const
     const struct material *other = second ? a : b;
     double own = family_plane_compliance(soft);
     double share = own / (own + family_plane_compliance(other));
-    /* The other body flows as well where its own yield is less than twice that of the softer one,
-     * whose hardness is some 3.2 yields while Hertz's pressure at first yield is 1.6 of them. The
-     * part of its compliance that counts as the softer one's: all at equal yields, and the fourth
-     * power beyond, from contact regions of two equal bodies but for their yields (5e-3 of the
-     * force and 3e-3 of the indentation that springs back, at 1.2 and 1.5 times the yield). */
+    /* The other body flows as well if its yield stress is less than twice that of the softer one:
+     * the hardness of the softer one is some 3.2 yields, Hertz's pressure at first yield 1.6 of
+     * them. The part of its compliance that counts as the softer one's is 1 at equal yields and
+     * falls with the fourth power, from contact regions of two bodies that are equal but for their
+     * yields (5e-3 of the force and 3e-3 of the elastic recovery, at 1.2 and 1.5 times it). */
     double ratio = closed_form_yield_ratio(soft, other);
     double both = ratio < HARD_ENOUGH ? pow(HARD_ENOUGH - ratio, 4.0) : 0.0;
     return (struct contact_family_place){soft->tangent / soft->young, soft->poisson,
@@ -319,8 +319,8 @@ double contact_family_outside(const struct contact_family *family,
     return most;
 }
 
-/* Lagrange's weights of the `order` places around one, all others 0. Outside the axis: of the place
- * at most half a step away from its end, of the end itself for straight lines. */
+/* Lagrange's weights of the `order` places around `at`, all others 0. Outside the axis: of a place
+ * at most half a step beyond its end, or of the end itself for LINEAR. */
 static void family_find_weights(const struct family_axis *axis, double at, size_t order,
                                 double *weight)
 {
@@ -342,7 +342,7 @@ static void family_find_weights(const struct family_axis *axis, double at, size_
     }
 }
 
-/* restrict: four numbers at a time */
+/* restrict: the compiler may add four numbers at a time */
 static void family_add(size_t count, double part, const double *restrict from, double *restrict sum)
 {
     for (size_t i = 0; i < count; i++)
@@ -368,8 +368,7 @@ static void family_mix(const struct contact_family *family,
     }
 }
 
-/* Whether a law can follow them; what springs back is cut to all of it where it is more by
- * rounding. */
+/* Whether the curves are valid for a law; a recovery that exceeds 1 by rounding becomes 1. */
 static bool family_is_good(const struct contact_curves *curves)
 {
     const double rounding = 1e-6;
@@ -429,7 +428,7 @@ const struct contact_curves *contact_family_curves(const struct contact_family *
     if (!curves)
         return NULL;
     family_mix(family, place, CUBIC, family_curve_numbers(family), family->curves, numbers);
-    /* means with positive weights are as sound as the tables */
+    /* linear means have positive weights and are as sound as the tables */
     if (!family_is_good(curves))
         family_mix(family, place, LINEAR, family_curve_numbers(family), family->curves, numbers);
     family_mix(family, place, LINEAR, family_shape_numbers(family), family->shapes, shapes);

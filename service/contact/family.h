@@ -4,11 +4,13 @@
 /* One family of tables for the circular contacts of any two metals. In the static contact region of
  * finite-elements.md (half-spaces that part like r^2 / (2 R), small strains, von Mises, linear
  * hardening) lengths scale with R and strains with yield/E-star: with indentations in units of that
- * of first yield, d_c = (pi C S_y / (2 E-star))^2 R, and forces in those of Hertz's force there,
- * neither R nor yield/E-star is left. What is left of the materials: hardening  tangent / young of
- * the body that yields poisson    of the body that yields share      of the compliance 1/E-star
- * that is its own: the other one has no Poisson's ratio of its own (its surface moves by (1 -
- * poisson^2)/young), and two equal bodies that both yield are each one against a rigid flat: 1. */
+ * of first yield, d_c = (pi C S_y / (2 E-star))^2 R, and forces in units of Hertz's force there,
+ * results depend neither on R nor on yield/E-star, but only on three ratios of the materials:
+ *
+ * - hardening: tangent / young of the body that yields;
+ * - poisson: of the body that yields;
+ * - share: its part of the compliance 1/E-star. The other body enters by (1 - poisson^2)/young
+ *   alone. Two equal bodies that both yield are each one against a rigid flat: 1. */
 #ifndef PERCUSS_CONTACT_FAMILY_H
 #define PERCUSS_CONTACT_FAMILY_H
 
@@ -16,11 +18,11 @@
 
 #include "base/arena.h"
 #include "contact/hertz.h"
-#include "contact/table.h"
+#include "contact/law_table.h"
 
 enum { CONTACT_FAMILY_AXES = 3, CONTACT_FAMILY_MOST = 12 };
 
-/* What it was computed for, in the order of the axes. */
+/* A point of the family, in the order of the axes. */
 struct contact_family_place {
     double hardening, poisson, share;
 };
@@ -41,36 +43,36 @@ struct contact_family_samples {
                             * of all further ones */
     size_t samples;        /* of each branch, at equal steps of the way back */
     const double *share;   /* [tables][branches][samples], as in struct contact_table */
-    double computed;       /* depth up to which it was computed; beyond, it was continued */
+    double computed;       /* depth up to which it was computed; extrapolated beyond */
     double error;          /* relative, of the force, as its computation states it */
 };
 
-/* A family made ready; immutable, may be shared. */
+/* A family ready for interpolation; immutable, may be shared. */
 struct contact_family;
 
-/* Bad samples: NULL with BAD_REQUEST and what is wrong in the fault; out of memory: INTERNAL. */
+/* Bad samples: NULL, and BAD_REQUEST with the reason in the fault; out of memory: INTERNAL. */
 struct contact_family *contact_family_create(const struct contact_family_samples *samples,
                                              struct fault *fault);
 void contact_family_free(struct contact_family *family); /* NULL is allowed */
 
-/* Where two materials lie, at least one of which can yield (the one of closed_form_softer). */
+/* The point of two materials, at least one of which can yield (that of closed_form_softer). */
 struct contact_family_place contact_family_place(const struct material *a,
                                                  const struct material *b);
 
-/* Whether the other one can flow as well before it is hard enough for the first. */
+/* Whether both bodies flow: the harder one yields at less than twice the pressure of the other. */
 bool contact_family_both_yield(const struct material *a, const struct material *b);
 
-/* How far outside the family's axes a place lies, as a part of the nearest step; 0: inside. */
+/* Distance of a place from the range of the axes, as a part of the nearest step; 0: inside. */
 double contact_family_outside(const struct contact_family *family,
                               const struct contact_family_place *place);
 
-/* The curves of a place, in reduced units, from the arena: a function of family and place alone.
+/* The curves of a place, in reduced units, from the arena; they depend on family and place alone.
  * NULL: out of memory. */
 const struct contact_curves *contact_family_curves(const struct contact_family *family,
                                                    const struct contact_family_place *place,
                                                    struct arena *arena);
 
-/* The law of such curves for a contact; elliptic ones: of the sphere that is as stiff. */
+/* The law of such curves for a contact; an elliptic one follows the sphere that is as stiff. */
 struct contact_law contact_law_family(const struct contact_curves *curves,
                                       const struct hertz_contact *hertz, const struct material *a,
                                       const struct material *b);

@@ -92,6 +92,6 @@ double hertz_pressure_ratio(const struct hertz_contact *contact)
         return 1.0;
     /* of the circle: a^2 = R d, with k = (4/3) E-star sqrt(R) */
     double root = 0.75 * contact->stiffness / contact->effective_modulus;
-    hertz_ellipse(contact, contact->stiffness, axes); /* whose indentation is 1 m */
+    hertz_ellipse(contact, contact->stiffness, axes); /* at an indentation of 1 m */
     return root * root / (axes[0] * axes[1]);
 }

@@ -9,8 +9,7 @@
 
 /* Below this ratio of the relative principal curvatures a contact counts as a line. */
 #define HERTZ_LINE_RATIO 1e-6
-/* Above this axis ratio it counts as circular: what laws of circles leave out is below 1e-6 then.
- */
+/* Above this axis ratio it counts as circular: the error of laws of circles is below 1e-6. */
 #define HERTZ_CIRCULAR_RATIO 0.999
 /* Peak pressure over the yield stress where metal first flows, below the surface: of a circle at
  * nu = 0.3 (Johnson, Contact Mechanics, section 6.1); of ellipses it is up to 1.79. */

@@ -13,12 +13,12 @@
 
 enum { CONTACT_LAW_PARAMETERS = 6, CONTACT_LAW_AT_ONCE = 4 };
 
-/* What a contact remembers of its largest load; all zero: never beyond yield. Depths from the
- * surface as it was made. */
+/* History of a contact: the largest load that it had; all zero: never beyond yield. Depths from the
+ * undeformed surface. */
 struct contact_history {
     double max_indentation; /* m */
     double max_force;       /* N */
-    double dent;            /* depth that stays, m */
+    double dent;            /* permanent depth, m */
     double contact_radius;  /* at the largest force, m */
 };
 
@@ -27,45 +27,47 @@ struct hertz_contact;
 struct material;
 struct plastic_curve;
 
-/* What an impact takes, and so who may solve it: any thread, even the one that reads requests; a
- * worker; the thread of what takes seconds. */
+/* Time that an impact takes, which selects its thread: any thread, even the one that reads
+ * requests; a worker; the thread of computations that take seconds. */
 enum contact_effort { CONTACT_EFFORT_LEAST, CONTACT_EFFORT_SHORT, CONTACT_EFFORT_LONG };
 
-/* What finds the motion: the march of impact/ with the law's force, the same with a contact region
- * solved in every step (impact/concurrent.h), or meshes of both bodies (fe/impact_complete.h). */
+/* The solver of the motion: the march of impact/ with the law's force, the same with a contact
+ * region solved in every step (impact/concurrent.h), or meshes of both bodies
+ * (fe/impact_complete.h). */
 enum contact_method { CONTACT_BY_LAW, CONTACT_CONCURRENT, CONTACT_COMPLETE };
 
-/* Tables of computed contacts: not used, used where there are some, insisted on. */
+/* Tables of computed contacts: not used; used if there is one; required. */
 enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES_ONLY };
 
-/* All that depends on which law it is: the first members of what may be asked for, the rest of what
- * a contact can follow (not of AUTO and of finite elements, which have a law to begin with).
+/* Everything that depends on the law. The members up to `make` describe a model that can be
+ * requested, the others a force law (AUTO and the models by finite elements have none: `make` gives
+ * the law that they begin with).
  *
- * Indentations count from the bottom of the dent that the law's history holds. Between updates of
+ * Indentations count from the bottom of the dent in the law's history. Between updates of
  * its history every law is elastic.
  *
- * A law that depends on the rate (Hunt and Crossley 1975, viscoelastic) has as one more operation,
- * NULL for all others, a force of (law, indentation, rate), with both slopes, that is never
- * negative; what it remembers is its history, updated like a dent's between steps. Its `force` is
- * the elastic part. The march would have to give it the rates at the nodes, the derivative of the
- * cubic through the indentations there (find_rate in impact/yielding.c: a fixed matrix over the
- * step's length); to add to each Newton matrix the slope by the rate times that matrix, where now
- * only the diagonal of the stiffness stands (node_solver.c, in a copy of solve_one for such laws);
- * and to count the work of the force less `force` as dissipated, as contact_law_yield's is. */
+ * A law that depends on the rate (Hunt and Crossley 1975, viscoelastic) would need one more
+ * operation, NULL for all others: a force of (law, indentation, rate), never negative, with both
+ * slopes; `force` is its elastic part, and its memory is the history, updated between steps. The
+ * march would have to pass the rates at the nodes, the derivative of the cubic through the
+ * indentations there (find_rate in impact/yielding.c: a fixed matrix over the step's length); to
+ * add to each Newton matrix the slope by the rate times that matrix, where now only the diagonal of
+ * the stiffness stands (node_solver.c, in a copy of solve_one for such laws); and to count the work
+ * of the force less `force` as dissipated, as that of contact_law_yield is. */
 struct contact_law_operations {
     enum percuss_contact_model model;
     enum contact_effort effort;
     enum contact_method method;
     enum contact_tables tables;
     bool yields_if_needed; /* Hertz's law where no contact exceeds its yield */
-    /* The law of a contact of two materials, where no table is used; Hertz's where it is one that
-     * yields and neither of them does. */
+    /* The law of a contact of two materials without a table; Hertz's where the law yields but
+     * neither material can. */
     struct contact_law (*make)(const struct hertz_contact *hertz, const struct material *a,
                                const struct material *b);
 
-    const char *title; /* for people */
-    bool three_halves; /* its force is d^(3/2) throughout times what has derivatives where d = 0 */
-    bool elliptic;     /* takes elliptic contacts as they are; else by the sphere as stiff */
+    const char *title; /* for messages */
+    bool three_halves; /* force = d^(3/2) times a function that is smooth at d = 0 */
+    bool elliptic;     /* exact for elliptic contacts; else by the sphere that is as stiff */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);
     /* The same at several indentations at once; NULL: one by one. */
@@ -73,10 +75,10 @@ struct contact_law_operations {
                    double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE]);
     /* Recoverable energy (J) stored at an indentation. */
     double (*stored)(const struct contact_law *law, double indentation);
-    /* Indentation at which the loading branch has the force f > 0: a starting value and a scale. */
+    /* Indentation at which the loading branch has a force > 0: a starting value and a scale. */
     double (*indentation)(const struct contact_law *law, double force);
     const struct plastic_curve *curve; /* of a law that yields, see plastic.h; NULL: elastic */
-    /* Makes its forces `force` times as large, and the stress at which it yields `yield` times. */
+    /* Scales its forces by `force` and its yield stress by `yield`. */
     void (*rescale)(struct contact_law *law, double force, double yield);
 };
 
@@ -93,12 +95,12 @@ struct contact_law contact_law_hertz(double stiffness);
 /* F = stiffness d, N/m: for verification against wave solutions. */
 struct contact_law contact_law_linear(double stiffness);
 
-/* One of each model that may be asked for, with its name in capitals at the end. */
+/* The operations of each model that can be requested, with its name in capitals. */
 #define CONTACT_LAW_DECLARATION(name, text)                                                        \
     extern const struct contact_law_operations contact_law_##name;
 PERCUSS_CONTACT_MODEL_LIST(CONTACT_LAW_DECLARATION)
 
-/* What may be asked for by its number; one that is none: AUTO's. */
+/* The operations of a model by its number; AUTO's for a number out of range. */
 const struct contact_law_operations *contact_law_asked(unsigned model);
 
 static inline double contact_law_force(const struct contact_law *law, double indentation,

@@ -10,7 +10,7 @@
  *   unloading  F = F_m ((d - d_res)/(d_m - d_res))^(3/2),
  *              d_res = 1.02 d_m (1 - ((w_m + 5.9)/6.9)^-0.54), 0 up to w_m = 1
  *
- * The published loading pieces differ by -0.16 % at w = 1.9, and in slope: Hertz goes over into the
+ * The published loading pieces differ by -0.16 % at w = 1.9, and in slope: Hertz passes into the
  * second piece from w = 1.9 to 3.8 by a quintic step (two continuous derivatives). The published
  * d_res begins with a slope at w = 1, where the plastic zone is a point and the loading curve
  * Hertz's as far as 1.9: a cubic step from 1 to 1.9 lets it begin with its square, as in the fit of
@@ -96,7 +96,7 @@ static double plastic_piece(const struct contact_law *law, double w, double *by_
 {
     const double *p = law->parameters;
     double log_w = log(w);
-    /* what is left of Hertz's force: exp(-w^(5/12)/4) w^(3/2) */
+    /* remaining part of Hertz's force: exp(-w^(5/12)/4) w^(3/2) */
     double fading = exp(5.0 / 12.0 * log_w);
     double first = exp(-0.25 * fading) * w * sqrt(w);
     /* share that the plastic force has reached: 1 - exp(-w^(5/9)/25) */
@@ -194,7 +194,7 @@ static double closed_form_residual_depth(const struct contact_law *law, double d
     double w = d / law->parameters[YIELD_DEPTH];
     if (!(w > 1.0))
         return 0.0;
-    /* what springs back */
+    /* elastic recovery */
     double back = 1.02 * pow((fmin(w, SPRING_FIT) + 5.9) / 6.9, -0.54) - 0.02;
     if (w > SPRING_FIT)
         back *= sqrt(SPRING_FIT / w);

@@ -17,7 +17,7 @@ static double hertz_force(const struct contact_law *law, double indentation, dou
     return law->parameters[0] * indentation * root;
 }
 
-/* Two indentations, wherever they lie, and what a comparison of them says. */
+/* Two indentations at any address, and the result of their comparison. */
 typedef double pair __attribute__((vector_size(2 * sizeof(double)), aligned(8)));
 typedef long long mask __attribute__((vector_size(2 * sizeof(long long))));
 

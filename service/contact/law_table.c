@@ -4,23 +4,239 @@
 /* Every curve is interpolated in F^(2/3), which is a straight line for Hertz and nearly one beyond
  * yield, by monotone splines.
  * Between two branches of the family the values are mixed linearly in the largest indentation's
- * logarithm; what springs back, as a share, is a spline of that logarithm.
- * The contact region is static and without a length of its own: for surfaces k times as large
- * lengths are k times, forces k^2 times and works k^3 times the table's. A family's curves are in
- * reduced units besides, so that a law has one unit each of indentation, force and contact radius.
+ * logarithm; the elastic recovery, as a share, is a spline of that logarithm.
+ * The contact region is static and has no intrinsic length: for surfaces k times as large lengths
+ * are k times, forces k^2 times and works k^3 times those of the table. A family's curves are in
+ * reduced units besides, so that a law has a unit each of indentation, force and contact radius.
  *
- * Beyond its last point a table of a contact that yields goes on as a fully plastic contact does
+ * Beyond its last point a table of a contact that yields continues as a fully plastic contact
  * (K. L. Johnson, Contact Mechanics, 1985, sections 6.3 and 6.4): the pressure has reached the
- * hardness and the contact's area grows like the indentation, so that the force goes straight on;
+ * hardness and the contact's area grows like the indentation, so that the force is linear;
  * it springs back like an elastic body from under that pressure, by a length that grows like the
  * contact radius, so that the share of the indentation falls with its root. Hence e ~ v^(-1/4). An
- * elastic table goes on like Hertz, with the last slope of F^(2/3). */
-#include <math.h>
-#include <stdbool.h>
+ * elastic table continues like Hertz, with the last slope of F^(2/3). */
+#include "contact/law_table.h"
 
-#include "contact/curves.h"
+#include <stdlib.h>
+
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
+
+/* Four-point Gauss-Legendre rule on (0, 1). */
+static const double gauss_node[] = {0.069431844202973712388, 0.33000947820757186760,
+                                    0.66999052179242813240, 0.93056815579702628761};
+static const double gauss_weight[] = {0.17392742256872692869, 0.32607257743127307131,
+                                      0.32607257743127307131, 0.17392742256872692869};
+
+/* Integral of value^(3/2) over a part of segment i of the mix (1 - mix) a + mix b of two splines
+ * that share their places. With x = u^2, as the value begins like x. */
+static double curves_work_on(const struct spline *a, const struct spline *b, double mix, size_t i,
+                             const double part[2])
+{
+    double value[2];
+    double slopes[2];
+    double sum = 0.0;
+    double from = sqrt(part[0]);
+    double range = sqrt(part[1]) - from;
+    double h = a->place[i + 1] - a->place[i];
+    /* the mix of two cubics is the cubic of the mix */
+    for (size_t end = 0; end < 2; end++) {
+        value[end] = (1.0 - mix) * a->value[i + end] + mix * b->value[i + end];
+        slopes[end] = (1.0 - mix) * a->slope[i + end] + mix * b->slope[i + end];
+    }
+    for (int g = 0; g < 4; g++) {
+        double slope;
+        double u = from + range * gauss_node[g];
+        double here = spline_between(h, (u * u - a->place[i]) / h, value, slopes, &slope);
+        sum += 2.0 * u * gauss_weight[g] * here * sqrt(here);
+    }
+    return sum * range;
+}
+
+static enum percuss_status check_table(const struct contact_table *table, struct fault *fault)
+{
+    /* the loading curve */
+    if (table->points < 3 || !curves_rise(table->points, table->indentation) ||
+        !curves_rise(table->points, table->force) ||
+        !curves_rise(table->points, table->contact_radius) || table->indentation[0] != 0.0 ||
+        table->force[0] != 0.0 || table->contact_radius[0] != 0.0)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "table: %zu points of loading: must be 3 or more that rise from 0",
+                         table->points);
+    /* the grid of the branches */
+    if (table->branches &&
+        (table->samples < 3 || !(table->yield > 0.0) || !(table->largest[0] > table->yield) ||
+         !curves_rise(table->branches, table->largest)))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "table: %zu branches of %zu samples, yield at %g m: must be 3 or more "
+                         "samples each, from rising indentations beyond the yield",
+                         table->branches, table->samples, table->yield);
+    /* each branch */
+    for (size_t b = 0; b < table->branches; b++) {
+        const double *share = table->share + b * table->samples;
+        if (!(table->residual[b] >= 0.0 && table->residual[b] < table->largest[b]) ||
+            !curves_rise(table->samples, share) || share[0] != 0.0 ||
+            share[table->samples - 1] != 1.0)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "table: branch %zu from %g m back to %g m: must end between 0 and its "
+                             "beginning, with shares that rise from 0 to 1",
+                             b, table->largest[b], table->residual[b]);
+    }
+    return PERCUSS_OK;
+}
+
+/* Takes the three arrays of a spline from the block. */
+static struct spline take_spline(double **block, size_t count)
+{
+    struct spline spline = {count, *block, *block + count, *block + 2 * count};
+    *block += 3 * count;
+    return spline;
+}
+
+static void curves_fill_loading(struct contact_curves *curves, const struct contact_table *table,
+                                double *scratch)
+{
+    struct spline *loading = &curves->loading;
+    for (size_t i = 0; i < table->points; i++) {
+        loading->place[i] = curves->radius.place[i] = table->indentation[i];
+        loading->value[i] = curves_two_thirds(table->force[i]);
+        curves->radius.value[i] = table->contact_radius[i] * table->contact_radius[i];
+    }
+    spline_set_slopes(loading, scratch);
+    spline_set_slopes(&curves->radius, scratch);
+}
+
+/* Jump of the third derivative at an inner point, for a step as long as the indentation is deep. */
+static double roughness_at(const struct spline *spline, size_t i)
+{
+    double third[2];
+    for (int side = 0; side < 2; side++)
+        third[side] = spline_third(spline, i - 1 + (size_t)side);
+    double d = spline->place[i];
+    return fabs(third[1] - third[0]) * d * d * d / spline->value[i];
+}
+
+/* Finds the roughest points beyond yield, at which steps end. */
+static void find_joints(struct contact_curves *curves)
+{
+    const struct spline *loading = &curves->loading;
+    double bound = INFINITY;
+    for (int i = 0; i <= CURVES_JOINTS; i++)
+        curves->joints[i] = INFINITY;
+    for (int found = 0; found < CURVES_JOINTS; found++) {
+        /* the roughest point below the last one found */
+        double roughest = 0.0;
+        double place = INFINITY;
+        for (size_t i = 1; i + 1 < loading->count; i++) {
+            double here = roughness_at(loading, i);
+            if (loading->place[i] < curves->yield || !(here < bound) || !(here > roughest))
+                continue;
+            roughest = here;
+            place = loading->place[i];
+        }
+        bound = roughest;
+        /* into its place among the others, ascending */
+        int at = found;
+        for (; at > 0 && curves->joints[at - 1] > place; at--)
+            curves->joints[at] = curves->joints[at - 1];
+        curves->joints[at] = place;
+    }
+}
+
+void curves_finish(struct contact_curves *curves)
+{
+    const struct spline *loading = &curves->loading;
+    curves->work[0] = 0.0;
+    for (size_t i = 0; i + 1 < loading->count; i++)
+        curves->work[i + 1] =
+            curves->work[i] + curves_work_on(loading, loading, 0.0, i,
+                                             (double[]){loading->place[i], loading->place[i + 1]});
+    find_joints(curves);
+}
+
+static void curves_fill_branches(struct contact_curves *curves, const struct contact_table *table,
+                                 double *scratch)
+{
+    curves->spring.place[0] = log(table->yield);
+    curves->spring.value[0] = 1.0;
+    for (size_t b = 0; b < table->branches; b++) {
+        curves->spring.place[b + 1] = log(table->largest[b]);
+        curves->spring.value[b + 1] = 1.0 - table->residual[b] / table->largest[b];
+        struct spline *branch = &curves->branch[b];
+        for (size_t i = 0; i < table->samples; i++) {
+            branch->place[i] = (double)i / (double)(table->samples - 1);
+            branch->value[i] = curves_two_thirds(table->share[b * table->samples + i]);
+        }
+        spline_set_slopes(branch, scratch);
+    }
+    spline_set_slopes(&curves->spring, scratch);
+}
+
+enum percuss_status contact_curves_create(const struct contact_table *table,
+                                          struct contact_curves **made, struct fault *fault)
+{
+    *made = NULL;
+    enum percuss_status status = check_table(table, fault);
+    if (status)
+        return status;
+    /* one block for all numbers, scratch for the longest spline */
+    size_t points = table->points;
+    size_t branches = table->branches;
+    size_t samples = branches ? table->samples : 0;
+    size_t most = points > branches + 1 ? points : branches + 1;
+    size_t numbers = 7 * points + 3 * (branches + 1) + 3 * branches * samples;
+    most = most > samples ? most : samples;
+    struct contact_curves *curves = calloc(1, sizeof *curves + numbers * sizeof(double));
+    double *scratch = calloc(2 * most, sizeof *scratch);
+    struct spline *branch = calloc(branches + 1, sizeof *branch);
+    if (!curves || !scratch || !branch) {
+        free(curves);
+        free(scratch);
+        free(branch);
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    }
+    /* splines over their parts of it */
+    double *block = curves->memory;
+    curves->loading = take_spline(&block, points);
+    curves->radius = take_spline(&block, points);
+    curves->spring = take_spline(&block, branches + 1);
+    curves->branch = branch;
+    for (size_t b = 0; b < branches; b++)
+        branch[b] = take_spline(&block, samples);
+    curves->work = block;
+    /* figures that the table states */
+    curves->yield = table->yield;
+    curves->error = table->error;
+    curves->surface_radius = table->surface_radius;
+    curves->branches = branches;
+    curves->range = table->range > 0.0 ? table->range : table->indentation[points - 1];
+    /* values, slopes, work */
+    curves_fill_loading(curves, table, scratch);
+    curves_finish(curves);
+    if (branches)
+        curves_fill_branches(curves, table, scratch);
+    free(scratch);
+    *made = curves;
+    return PERCUSS_OK;
+}
+
+void contact_curves_free(struct contact_curves *curves)
+{
+    if (!curves)
+        return;
+    free(curves->branch);
+    free(curves);
+}
+
+double contact_curves_range(const struct contact_curves *curves)
+{
+    return curves->range;
+}
+
+double contact_curves_error(const struct contact_curves *curves)
+{
+    return curves->error;
+}
 
 enum { LENGTH, FORCE, RADIUS }; /* units of the table in SI */
 
@@ -34,14 +250,14 @@ static double last_of(const struct spline *spline)
     return spline->place[spline->count - 1];
 }
 
-/* How far beyond the last point a law that goes straight on is at d, in the table's units; <= 0:
- * not at all, or it goes on like Hertz. */
+/* Distance of d beyond the last point of a law that continues linearly, in the table's units; <= 0:
+ * d is not beyond, or the law continues like Hertz. */
 static double straight_on(const struct contact_curves *curves, double d)
 {
     return curves->branches ? d - last_of(&curves->loading) : 0.0;
 }
 
-/* Force and slope at a point of the table, which is looked for about a segment of the curve. */
+/* Force and slope at depth d; the search for its segment starts at *segment. */
 static double table_force(const struct contact_curves *curves, size_t *segment, double d,
                           double *slope)
 {
@@ -79,7 +295,7 @@ static double table_work(const struct contact_curves *curves, double d)
         return curves->work[last] + beyond * (force + 0.5 * slope * beyond);
     }
     if (d > loading->place[last]) {
-        /* a straight line to the power 3/2 */
+        /* a linear function to the power 3/2 */
         double from = loading->value[last];
         double to = spline_at(loading, d, &slope);
         return curves->work[last] + 0.4 / slope * (to * to * sqrt(to) - from * from * sqrt(from));
@@ -130,7 +346,7 @@ static double table_contact_radius(const struct contact_law *law, double d)
     return sqrt(spline_at(&curves_of(law)->radius, d / unit[LENGTH], &slope)) * unit[RADIUS];
 }
 
-/* The two branches around the law's largest indentation, and the second one's part. */
+/* The two branches around the law's largest indentation; returns the weight of the second. */
 static double branches_of(const struct contact_law *law, const struct spline *pair[2])
 {
     const struct contact_curves *curves = curves_of(law);
@@ -173,7 +389,7 @@ static double branch_share(const struct contact_law *law, double x, double *slop
     return share_between(pair, mix, x, slope);
 }
 
-/* plastic_force at several indentations: branches and segment are looked for once. */
+/* plastic_force at several indentations, with one search for branches and segment. */
 static void table_forces(const struct contact_law *law,
                          const double indentation[CONTACT_LAW_AT_ONCE],
                          double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE])
@@ -211,8 +427,8 @@ static double table_branch_work(const struct contact_law *law, double x)
     return sum;
 }
 
-/* Strains scale with the stress of yield, see family.h: depths with its square, forces with its
- * cube and contact radii with itself, so that Hertz's part stays what it is. */
+/* Strains scale with the yield stress, see family.h: depths with its square, forces with its cube
+ * and contact radii with itself, so that Hertz's part does not change. */
 static void table_rescale(struct contact_law *law, double force, double yield)
 {
     law->parameters[LENGTH] *= yield * yield;
@@ -220,10 +436,10 @@ static void table_rescale(struct contact_law *law, double force, double yield)
     law->parameters[RADIUS] *= yield;
 }
 
-/* Of what lies on a knot but for rounding. */
+/* Relative distance from a knot that counts as rounding. */
 static const double ON_KNOT = 1e-12;
 
-/* A curve by its places: of two splines that share them, mixed, in units of length and force. */
+/* A mix of two splines that share their places, in units of length and force. */
 struct placed_curve {
     const struct spline *pair[2];
     double mix;
@@ -231,8 +447,8 @@ struct placed_curve {
     double from; /* its origin, in indentations */
 };
 
-/* With g = F^(2/3), F has 3/2 g^(1/2) times what g has more behind a knot, a sixth of the jump of
- * its third derivative times the cube of the way. */
+/* Beyond a knot g = F^(2/3) increases by a sixth of the jump of its third derivative times the cube
+ * of the way, and F by 3/2 g^(1/2) times that. */
 static double cube_at(const struct placed_curve *curve, size_t i)
 {
     double jump = 0.0;
@@ -247,7 +463,7 @@ static double cube_at(const struct placed_curve *curve, size_t i)
            (curve->length * curve->length * curve->length);
 }
 
-/* The inner places on the way. */
+/* The inner places between `from` and `to`. */
 static size_t knots_on(const struct placed_curve *curve, double from, double to,
                        struct contact_knot knots[CONTACT_KNOTS])
 {
@@ -267,7 +483,8 @@ static size_t knots_on(const struct placed_curve *curve, double from, double to,
     return found;
 }
 
-/* What falls from the largest indentation does so on a branch, also if rounding has it beyond. */
+/* Unloading from the largest indentation follows a branch, even if `from` exceeds it by rounding.
+ */
 static size_t next_knots(const struct contact_law *law, double from, double to,
                          struct contact_knot knots[CONTACT_KNOTS])
 {

@@ -3,7 +3,7 @@
 
 #include "contact/law_closed_form.h"
 
-/* What may be asked for and is no law: it decides between laws, or computes what they stand for. */
+/* The models that are no law themselves: AUTO selects one, the others compute the contact. */
 const struct contact_law_operations contact_law_AUTO = {
     .model = PERCUSS_CONTACT_AUTO,
     .effort = CONTACT_EFFORT_LEAST,

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-/* A stored force that differs by less from the curve's is this law's own, rounded. */
+/* A stored force that differs from the curve's by less is this law's own, rounded. */
 static const double SAME_FORCE = 1e-9;
 
-/* What the unloading branch spans. */
+/* Range of indentations of the unloading branch. */
 static double span_of(const struct contact_history *history)
 {
     return history->max_indentation - history->dent;
@@ -29,7 +29,7 @@ double plastic_force(const struct contact_law *law, double indentation, double *
     return history->max_force * share;
 }
 
-/* Energy that the unloading branch gives back from its top, J. */
+/* Energy under the unloading branch from 0 to the share x, J. */
 static double branch_energy(const struct contact_law *law, double x)
 {
     double span = span_of(&law->history);

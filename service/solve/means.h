@@ -8,7 +8,7 @@
 #include "base/watch.h"
 #include "model/body.h"
 
-struct contact_table_source; /* contact/table.h */
+struct contact_table_source; /* contact/law_table.h */
 
 struct solve_means {
     const struct body_set *catalogue;

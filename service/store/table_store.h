@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "contact/table.h"
+#include "contact/law_table.h"
 #include "fe/indentation.h"
 
 struct table_store;

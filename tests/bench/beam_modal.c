@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "contact/table.h"
+#include "contact/law_table.h"
 #include "spatial/beam_modal.h"
 
 /* Above what a blow of the fastest speed exerts: 0.3 m/s has 350 N. */

@@ -5,7 +5,7 @@
  * further. The law that is made of it has forces that are numbers, do not pull and rise. */
 #include <math.h>
 
-#include "contact/table.h"
+#include "contact/law_table.h"
 #include "fuzz.h"
 #include "store/json_numbers.h"
 #include "store/table_curves.h"

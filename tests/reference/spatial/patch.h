@@ -42,7 +42,7 @@ void patch_free(struct patch *patch);
  * the force besides: 0 for the region alone. NAN: no set of pressing nodes was found. */
 double patch_press(struct patch *patch, double approach, double series);
 
-/* Force against indentation, tabulated as contact/table.h keeps it: for contacts of a quarter to
+/* Force against indentation, tabulated as contact/law_table.h keeps it: for contacts of a quarter to
  * the whole of the size at `force`; below, as above, goes Hertz's power of the indentation. Point 0
  * is the touch. */
 enum { PATCH_SAMPLES = 24 };

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "contact/plastic.h"
-#include "contact/table.h"
+#include "contact/law_table.h"
 
 enum { SAMPLED_POINTS = 60, SAMPLED_BRANCHES = 12, SAMPLED_SHARES = 17 };
 

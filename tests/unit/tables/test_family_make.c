@@ -8,7 +8,7 @@
 
 #include "base/arena.h"
 #include "check.h"
-#include "contact/curves.h"
+#include "contact/law_table.h"
 #include "store/family_file.h"
 #include "tables/family_make.h"
 
