@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/extremes.h"
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/impact.h"
@@ -238,12 +239,6 @@ struct passage {
     double missed[NODES];    /* force by the moments less force at the node */
 };
 
-/* fmax is a call; this is for numbers. */
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 /* What a knot adds to the force behind it: a cube of the way from there times what goes like the
  * force's slope. */
 static double behind(const struct contact_knot *knot, double d)
@@ -425,11 +420,6 @@ enum {
     /* A step takes two or three iterations; so many more cost as much as one more. */
     ITERATIONS_PER_STEP = 8
 };
-
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
 
 /* The contacts that are closed, or their scales, have changed. */
 static void find_finest(struct modal_run *run)

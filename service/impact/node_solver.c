@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "base/vector_clones.h"
 #include "impact/node_factors.h"
 #include "impact/simd.h"
@@ -42,12 +43,6 @@ struct progress {
     double share; /* of the change before that one, which `previous` was */
     double indentation, target;
 };
-
-/* fmax is a call; this is a comparison of numbers. */
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 /* Whether the iteration ends: the change was small enough for its square to be nothing, or was
  * rounding. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "impact/node_factors.h"
 
 bool track_create(struct track *track, struct arena *arena)
@@ -131,11 +132,6 @@ static void add_omitted(struct track *track, double h, const struct track_values
     }
     track->inertia += inertia / h;
     track->viscosity += viscosity / h;
-}
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
 }
 
 void track_step(struct track *track, double time, double h, const struct track_values *values)
