@@ -28,7 +28,7 @@ static void hertz_forces(const struct contact_law *law,
     double k = law->parameters[0];
     for (int i = 0; i < CONTACT_LAW_AT_ONCE; i += 2) {
         pair d = *(const pair *)(indentation + i);
-        d = (pair)((mask)d & (d > 0.0)); /* open: none */
+        d = (pair)((mask)d & (d > 0.0)); /* no force where it is open */
         const pair root = {sqrt(d[0]), sqrt(d[1])};
         *(pair *)(stiffness + i) = 1.5 * k * root;
         *(pair *)(force + i) = k * d * root;

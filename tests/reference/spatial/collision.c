@@ -43,8 +43,8 @@ static void masses(const struct pair_input *input, double mass[2])
         input->materials[PAIR_SPHERE].density * 4.0 / 3.0 * M_PI * pow(input->sphere_radius, 3.0);
 }
 
-/* Hertz's contact, and the ellipse of the hardest blow: both bodies as if they were rigid but for
- * it, where 2/5 k d^(5/2) is the energy of the approach. */
+/* Hertz's contact, and the ellipse of the hardest impact of bodies that are rigid but for the
+ * contact, where 2/5 k d^(5/2) is the energy of the approach. */
 static void size_contact(struct pair *pair)
 {
     const struct pair_input *input = &pair->input;
@@ -386,7 +386,7 @@ static bool solve_chosen(const struct runs *runs, size_t chosen, int b, const st
     return true;
 }
 
-/* the forces at the end of the step, from where the bodies would be without */
+/* the forces at the end of the step, from the gaps without them */
 static bool find_forces(struct run *run)
 {
     const struct pressed *sphere = &run->collider->pair->pressed[PAIR_SPHERE];
@@ -423,7 +423,7 @@ static enum percuss_status contact_steps(const struct runs *runs, size_t chosen,
 {
     const struct collider *collider = runs->collider;
     bool solved = true, pressing = false;
-    /* as if no force were left at the step's end, then the forces that are */
+    /* first without forces at the step's end, then with the forces found there */
     for (int b = 0; b < 2; b++)
         solved = solved && solve_chosen(runs, chosen, b, &collider->contact[b], FREE);
     for (size_t i = 0; i < chosen && solved; i++) {
@@ -495,7 +495,7 @@ static enum percuss_status prepare(struct run *run, struct fault *fault)
     run->count = count;
     run->near = true;
     run->near_gap = NEAR_STEPS * run->approach * run->collider->flight_step;
-    /* the second body comes at the first */
+    /* the second body approaches the first */
     for (int b = 0; b < 2; b++) {
         enum percuss_status status =
             moving_create(&pair->systems[b], &pair->pressed[b], rise[b], &run->moving[b], fault);
@@ -556,7 +556,7 @@ static void release(struct runs *runs)
     free(runs->right);
 }
 
-/* after a step of the chosen runs: those in flight are looked at now and then */
+/* after a step of the chosen runs: records it, and checks the energies of those in flight */
 static void report(const struct runs *runs, size_t chosen, bool near)
 {
     const struct collision_settings *settings = runs->settings;

@@ -90,7 +90,7 @@ struct collision_settings {
      * that is open by more than that is over. 0: it goes on to the horizon */
     double compliance;
     struct pace *pace; /* borrowed; NULL: never stopped */
-    /* told the state of an impact after each step; may be NULL */
+    /* receives the state of an impact after each step; may be NULL */
     void (*record)(void *context, size_t which, const struct collision *collision);
     void *context;
 };

@@ -41,7 +41,7 @@ struct rational rational_make(enum rational_rule rule)
     return made;
 }
 
-/* MUMPS's own word for "the communicator of everybody" where there is no MPI */
+/* MUMPS's own number for the communicator of all processes where there is no MPI */
 static const MUMPS_INT COMM_WORLD = -987654;
 enum { JOB_INIT = -1, JOB_END = -2, JOB_ANALYSE_FACTOR = 4, JOB_SOLVE = 3 };
 enum { SYMMETRIC = 2, HOST_WORKS = 1, SCOTCH = 3 };
