@@ -18,8 +18,8 @@
 #include "model/describe.h"
 #include "percuss/plausible.h"
 #include "respond/table_cache.h"
+#include "store/database.h"
 #include "store/database_check.h"
-#include "store/schema.h"
 #include "wire.h"
 #include "wire_security.h"
 

@@ -13,7 +13,6 @@
 
 #include "catalogue/shipped.h"
 #include "contact/law_closed_form.h"
-#include "store/folder.h"
 #include "store/table_file.h"
 
 static void left_out(const struct fault *fault)

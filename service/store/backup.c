@@ -34,8 +34,8 @@ static enum percuss_status check_copy(const char *path, struct fault *fault)
 }
 
 /* The path without links in its folder, which SQLite is told to refuse. */
-static enum percuss_status resolve(const char *path, char whole[ATOMIC_FILE_SIZE],
-                                   struct fault *fault)
+static enum percuss_status resolve_folder(const char *path, char whole[ATOMIC_FILE_SIZE],
+                                          struct fault *fault)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     char folder[ATOMIC_FILE_SIZE], found[PATH_MAX];
@@ -57,7 +57,7 @@ enum percuss_status backup_write(struct specimen_store *store, const char *path,
     static const char *const ends[] = {"-wal", "-journal"};
     char whole[ATOMIC_FILE_SIZE], name[ATOMIC_FILE_SIZE + 32];
     struct atomic_file aside;
-    enum percuss_status status = resolve(path, whole, fault);
+    enum percuss_status status = resolve_folder(path, whole, fault);
     int file = status ? -1 : atomic_file_create(&aside, whole, 0644, fault);
     if (file < 0)
         return PERCUSS_BAD_REQUEST;

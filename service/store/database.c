@@ -7,6 +7,63 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The columns of a dent are those of struct dent, in its order. The mark of a client is the highest
+ * number among its replies that are no longer kept. A checksum is over all that a row says; that of
+ * a specimen covers its dents. */
+static const char SCHEMA_NEW[] =
+    "CREATE TABLE specimens (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,"
+    " body TEXT NOT NULL, nature TEXT NOT NULL, impacts INTEGER NOT NULL,"
+    " checksum BLOB);"
+    "CREATE TABLE dents (specimen INTEGER NOT NULL REFERENCES specimens ON DELETE CASCADE,"
+    " number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,"
+    " size REAL NOT NULL, max_indentation REAL NOT NULL, max_force REAL NOT NULL,"
+    " residual REAL NOT NULL, contact_radius REAL NOT NULL,"
+    " PRIMARY KEY (specimen, number)) WITHOUT ROWID;"
+    "CREATE TABLE replies (id INTEGER PRIMARY KEY AUTOINCREMENT, client BLOB NOT NULL,"
+    " sequence INTEGER NOT NULL, content BLOB NOT NULL, reply BLOB NOT NULL, checksum BLOB,"
+    " UNIQUE (client, sequence));"
+    "CREATE TABLE marks (client BLOB PRIMARY KEY, sequence INTEGER NOT NULL,"
+    " checksum BLOB) WITHOUT ROWID;";
+
+/* Checksums that these columns lack are put in before the upgrade is over. */
+static const char *const SCHEMA_UPGRADES[] = {
+    "ALTER TABLE replies ADD COLUMN checksum BLOB",
+    "ALTER TABLE specimens ADD COLUMN checksum BLOB; ALTER TABLE marks ADD COLUMN checksum BLOB"};
+
+static const char *const SCHEMA_STATEMENTS[STATEMENT_COUNT] = {
+    [STATEMENT_BEGIN] = "BEGIN IMMEDIATE",
+    [STATEMENT_COMMIT] = "COMMIT",
+    [STATEMENT_ROLLBACK] = "ROLLBACK",
+    [STATEMENT_SPECIMEN] = "SELECT id, name, body, nature, impacts, checksum FROM specimens"
+                           " WHERE name = ?1",
+    [STATEMENT_DENTS] = "SELECT x, y, z, size, max_indentation, max_force, residual, contact_radius"
+                        " FROM dents WHERE specimen = ?1 ORDER BY number",
+    [STATEMENT_DENT_COUNT] = "SELECT count(*) FROM dents WHERE specimen = ?1",
+    [STATEMENT_HIT] = "INSERT INTO specimens (name, body, nature, impacts) VALUES (?1, ?2, ?3, 1)"
+                      " ON CONFLICT (name) DO UPDATE SET impacts = impacts + 1"
+                      " RETURNING id, name, body, nature, impacts",
+    [STATEMENT_SEAL] = "UPDATE specimens SET checksum = ?2 WHERE id = ?1",
+    [STATEMENT_SMOOTH] = "DELETE FROM dents WHERE specimen = ?1",
+    [STATEMENT_DENT] = "INSERT INTO dents VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+    [STATEMENT_KEEP] = "INSERT INTO replies (client, sequence, content, reply, checksum)"
+                       " VALUES (?1, ?2, ?3, ?4, ?5)",
+    [STATEMENT_OLDEST] = "SELECT id, client, sequence FROM replies ORDER BY id LIMIT 1",
+    [STATEMENT_DROP] = "DELETE FROM replies WHERE id = ?1",
+    [STATEMENT_MARK] = "INSERT INTO marks (client, sequence, checksum) VALUES (?1, ?2, ?3)"
+                       " ON CONFLICT (client) DO UPDATE SET sequence = ?2, checksum = ?3",
+    [STATEMENT_MARKED] = "SELECT client, sequence, checksum FROM marks WHERE client = ?1",
+    [STATEMENT_REPLY] = "SELECT client, sequence, content, reply, checksum FROM replies"
+                        " WHERE client = ?1 AND sequence = ?2",
+    [STATEMENT_REPLIES] = "SELECT client, sequence, content, reply, checksum, id FROM replies"
+                          " ORDER BY id",
+    [STATEMENT_SEAL_REPLY] = "UPDATE replies SET checksum = ?2 WHERE id = ?1",
+    [STATEMENT_MARKS] = "SELECT client, sequence, checksum FROM marks",
+    [STATEMENT_LIST] = "SELECT id, name, body, nature, impacts, checksum FROM specimens"
+                       " WHERE ?1 IS NULL OR name = ?1 ORDER BY name",
+    [STATEMENT_CLEAR] = "DELETE FROM specimens WHERE name = ?1",
+    [STATEMENT_COUNTS] = "SELECT (SELECT count(*) FROM specimens), (SELECT count(*) FROM replies)",
+};
+
 /* The write-ahead log is written back into the file from 256 pages on, and cut to 1 MiB: a volume
  * that it fills has no room to write it back to. */
 static const char BOUND_LOG[] = "PRAGMA wal_autocheckpoint = 256;"
@@ -14,8 +71,8 @@ static const char BOUND_LOG[] = "PRAGMA wal_autocheckpoint = 256;"
 
 static const int BUSY_MILLISECONDS = 2000; /* a killed daemon's lock goes with its process */
 
-static enum percuss_status refuse(struct database *database, const char *problem,
-                                  struct fault *fault)
+static enum percuss_status database_refuse(struct database *database, const char *problem,
+                                           struct fault *fault)
 {
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", database->path, problem);
 }
@@ -35,22 +92,22 @@ static bool lacks_room(struct database *database)
 }
 
 /* What SQLite says about a file that cannot be used. */
-static enum percuss_status refuse_file(struct database *database, struct fault *fault)
+static enum percuss_status database_refuse_file(struct database *database, struct fault *fault)
 {
     char problem[320];
     if (!database->connection || sqlite3_errcode(database->connection) == SQLITE_NOMEM)
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", database->path);
     if (sqlite3_errcode(database->connection) == SQLITE_BUSY)
-        return refuse(database, "is in use by another process", fault);
+        return database_refuse(database, "is in use by another process", fault);
     if (lacks_room(database))
         return fault_set(fault, PERCUSS_BUSY, "%s: cannot be made or brought up to date: no room",
                          database->path);
     snprintf(problem, sizeof problem, "cannot be used as a store of specimens: %s",
              sqlite3_errmsg(database->connection));
-    return refuse(database, problem, fault);
+    return database_refuse(database, problem, fault);
 }
 
-static bool execute(struct database *database, const char *text)
+static bool database_execute(struct database *database, const char *text)
 {
     return sqlite3_exec(database->connection, text, NULL, NULL, NULL) == SQLITE_OK;
 }
@@ -79,45 +136,44 @@ static bool is_whole(struct database *database, bool *whole)
 }
 
 /* Says in the file that it is ours, and of which version. */
-static bool mark(struct database *database, int version)
+static bool mark_version(struct database *database, int version)
 {
     char text[96];
     snprintf(text, sizeof text, "PRAGMA application_id = %d; PRAGMA user_version = %d",
              DATABASE_APPLICATION, version);
-    return execute(database, text);
+    return database_execute(database, text);
 }
 
-static bool prepare(struct database *database, const struct database_design *design)
+static bool prepare_statements(struct database *database)
 {
     bool good = true;
     for (int i = 0; good && i < STATEMENT_COUNT; i++)
         if (!database->statements[i])
-            good = sqlite3_prepare_v3(database->connection, design->texts[i], -1,
+            good = sqlite3_prepare_v3(database->connection, SCHEMA_STATEMENTS[i], -1,
                                       SQLITE_PREPARE_PERSISTENT, &database->statements[i],
                                       NULL) == SQLITE_OK;
     return good;
 }
 
 /* Brings a file of ours from that version up to date. */
-static enum percuss_status upgrade(struct database *database, const struct database_design *design,
-                                   int version, struct fault *fault)
+static enum percuss_status upgrade_schema(struct database *database, database_fill *fill,
+                                          int version, struct fault *fault)
 {
     char problem[160];
-    if (version < 1 || version > design->version) {
+    if (version < 1 || version > SCHEMA_VERSION) {
         snprintf(problem, sizeof problem, "is of version %d: must be of version 1 to %d", version,
-                 design->version);
-        return refuse(database, problem, fault);
+                 SCHEMA_VERSION);
+        return database_refuse(database, problem, fault);
     }
     bool good = true;
-    for (int v = version; good && v < design->version; v++)
-        good = execute(database, design->upgrades[v - 1]);
-    good = good && mark(database, design->version) && prepare(database, design);
-    return good && (!design->fill || design->fill(database)) ? PERCUSS_OK
-                                                             : refuse_file(database, fault);
+    for (int v = version; good && v < SCHEMA_VERSION; v++)
+        good = database_execute(database, SCHEMA_UPGRADES[v - 1]);
+    good = good && mark_version(database, SCHEMA_VERSION) && prepare_statements(database);
+    return good && fill(database) ? PERCUSS_OK : database_refuse_file(database, fault);
 }
 
-static enum percuss_status check_schema(struct database *database,
-                                        const struct database_design *design, struct fault *fault)
+static enum percuss_status check_schema(struct database *database, database_fill *fill,
+                                        struct fault *fault)
 {
     int application, version, tables;
     bool whole;
@@ -126,50 +182,51 @@ static enum percuss_status check_schema(struct database *database,
         !query_number(database, "PRAGMA user_version", &version) ||
         !query_number(database, "SELECT count(*) FROM sqlite_master", &tables) ||
         !is_whole(database, &whole))
-        return refuse_file(database, fault);
+        return database_refuse_file(database, fault);
     if (!whole)
-        return refuse(database, "is damaged: restore it from a copy or move it away", fault);
+        return database_refuse(database, "is damaged: restore it from a copy or move it away",
+                               fault);
     /* ours, up to date or brought there */
-    if (application == DATABASE_APPLICATION && version == design->version)
+    if (application == DATABASE_APPLICATION && version == SCHEMA_VERSION)
         return PERCUSS_OK;
     if (application == DATABASE_APPLICATION)
-        return upgrade(database, design, version, fault);
+        return upgrade_schema(database, fill, version, fault);
     /* another program's, or an empty one that becomes ours */
     if (application != 0 || tables != 0)
-        return refuse(database, "is a database of another program", fault);
-    return execute(database, design->schema) && mark(database, design->version)
+        return database_refuse(database, "is a database of another program", fault);
+    return database_execute(database, SCHEMA_NEW) && mark_version(database, SCHEMA_VERSION)
                ? PERCUSS_OK
-               : refuse_file(database, fault);
+               : database_refuse_file(database, fault);
 }
 
 /* The schema is looked at and made in one transaction. */
-static enum percuss_status set_up(struct database *database, const struct database_design *design,
+static enum percuss_status set_up(struct database *database, database_fill *fill,
                                   struct fault *fault)
 {
-    if (!execute(database, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL;"
-                           "PRAGMA foreign_keys = ON; BEGIN EXCLUSIVE"))
-        return refuse_file(database, fault);
-    enum percuss_status status = check_schema(database, design, fault);
+    if (!database_execute(database, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL;"
+                                    "PRAGMA foreign_keys = ON; BEGIN EXCLUSIVE"))
+        return database_refuse_file(database, fault);
+    enum percuss_status status = check_schema(database, fill, fault);
     /* it is written into the file: not into that of another program */
-    if (!status &&
-        !(execute(database, "COMMIT; PRAGMA journal_mode = WAL") && execute(database, BOUND_LOG)))
-        status = refuse_file(database, fault);
+    if (!status && !(database_execute(database, "COMMIT; PRAGMA journal_mode = WAL") &&
+                     database_execute(database, BOUND_LOG)))
+        status = database_refuse_file(database, fault);
     return status;
 }
 
-enum percuss_status database_open(struct database *database, const char *path,
-                                  const struct database_design *design, struct fault *fault)
+enum percuss_status database_open(struct database *database, const char *path, database_fill *fill,
+                                  struct fault *fault)
 {
     size_t length = strlen(path), most = sizeof database->path - 1;
     snprintf(database->path, sizeof database->path, "%s",
              length > most ? path + length - most : path);
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(path, &database->connection, flags, NULL) != SQLITE_OK)
-        return refuse_file(database, fault);
+        return database_refuse_file(database, fault);
     sqlite3_busy_timeout(database->connection, BUSY_MILLISECONDS);
-    enum percuss_status status = set_up(database, design, fault);
-    if (!status && !prepare(database, design))
-        status = refuse_file(database, fault);
+    enum percuss_status status = set_up(database, fill, fault);
+    if (!status && !prepare_statements(database))
+        status = database_refuse_file(database, fault);
     return status;
 }
 

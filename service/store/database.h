@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An SQLite file of our own schema with its prepared statements. */
+/* The SQLite file of the store of specimens: its schema, upgrades and prepared statements. */
 #ifndef PERCUSS_STORE_DATABASE_H
 #define PERCUSS_STORE_DATABASE_H
 
@@ -12,7 +12,7 @@
 #include "base/hash.h"
 
 /* "prcs" marks a file as a store of percuss. */
-enum { DATABASE_APPLICATION = 0x70726373 };
+enum { DATABASE_APPLICATION = 0x70726373, SCHEMA_VERSION = 3 };
 
 enum statement {
     STATEMENT_BEGIN,
@@ -56,20 +56,14 @@ struct database {
     char path[256]; /* its end, for messages */
 };
 
-/* What is in such a file. */
-struct database_design {
-    int version;                             /* of the schema */
-    const char *schema;                      /* makes a new one */
-    const char *const *upgrades;             /* [v - 1] makes version v + 1 of version v */
-    bool (*fill)(struct database *database); /* puts in what upgrades cannot; NULL: nothing */
-    const char *const *texts;                /* of the statements */
-};
+/* Writes the checksums that an upgrade by SQL alone cannot; false: it failed. */
+typedef bool database_fill(struct database *database);
 
 /* Opens the file, brings one of an older version up to date, or creates it; keeps other processes
  * out, checks that it is ours and whole, and prepares the statements. PERCUSS_BUSY: there is no
  * room to create it or to bring it up to date. database_close is due whatever came of it. */
-enum percuss_status database_open(struct database *database, const char *path,
-                                  const struct database_design *design, struct fault *fault);
+enum percuss_status database_open(struct database *database, const char *path, database_fill *fill,
+                                  struct fault *fault);
 void database_close(struct database *database);
 
 /* Complains of each flaw in the structure: indices, pages, free space. False: cannot be read. */

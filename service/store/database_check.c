@@ -22,7 +22,8 @@ static const char MAGIC[] = "SQLite format 3"; /* and its zero */
 static const unsigned long long ROOM = 2048;
 static const off_t LOCKS = 0x40000000, LOCK_COUNT = 512;
 
-static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
+static enum percuss_status database_check_refuse(const char *path, const char *problem,
+                                                 struct fault *fault)
 {
     size_t length = strlen(path), most = 255;
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s",
@@ -33,7 +34,7 @@ static enum percuss_status refuse_access(const char *path, const char *what, str
 {
     char problem[160];
     snprintf(problem, sizeof problem, "cannot be %s: %s", what, strerror(errno));
-    return refuse(path, problem, fault);
+    return database_check_refuse(path, problem, fault);
 }
 
 /* Whether this user may make a folder that is missing: by the first one above it that is there. */
@@ -59,7 +60,7 @@ static enum percuss_status refuse_folder(const char *path, const char *folder, s
     if (strlen(folder) <= SHOWN)
         snprintf(problem + used, sizeof problem - used, ": %s %s makes it",
                  may_make(folder) ? "mkdir -p" : "sudo install -d -o \"$(id -un)\"", folder);
-    return refuse(path, problem, fault);
+    return database_check_refuse(path, problem, fault);
 }
 
 enum percuss_status database_folder_check(const char *path, struct fault *fault)
@@ -92,16 +93,16 @@ static enum percuss_status check_header(const char *path, int file, int version,
     if (size == 0)
         return PERCUSS_OK;
     if (size < HEADER_SIZE || memcmp(header, MAGIC, sizeof MAGIC) != 0)
-        return refuse(path, "cannot be used as a store of specimens: file is not a database",
-                      fault);
+        return database_check_refuse(
+            path, "cannot be used as a store of specimens: file is not a database", fault);
     if (number_at(header + AT_APPLICATION) != DATABASE_APPLICATION)
-        return refuse(path, "is a database of another program", fault);
+        return database_check_refuse(path, "is a database of another program", fault);
     uint32_t found = number_at(header + AT_VERSION);
     if (found >= 1 && found <= (uint32_t)version)
         return PERCUSS_OK;
     snprintf(problem, sizeof problem, "is of version %u: must be of version 1 to %d", found,
              version);
-    return refuse(path, problem, fault);
+    return database_check_refuse(path, problem, fault);
 }
 
 enum percuss_status database_room_check(const char *path, struct fault *fault)
@@ -131,7 +132,7 @@ static enum percuss_status check_locks(const char *path, int file, struct fault 
     if (lock.l_type == F_UNLCK)
         return PERCUSS_OK;
     snprintf(problem, sizeof problem, "is in use by another process (%ld)", (long)lock.l_pid);
-    return refuse(path, problem, fault);
+    return database_check_refuse(path, problem, fault);
 }
 
 enum percuss_status database_check(const char *path, int version, struct fault *fault)
@@ -145,7 +146,7 @@ enum percuss_status database_check(const char *path, int version, struct fault *
     /* what SQLite asks for: a file, and a folder for those beside it */
     enum percuss_status status = PERCUSS_OK;
     if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode))
-        status = refuse(path, "is no file", fault);
+        status = database_check_refuse(path, "is no file", fault);
     else if (access(path, W_OK) != 0)
         status = refuse_access(path, "written", fault);
     else

@@ -17,7 +17,7 @@ enum { DEPTH = CONTACT_FAMILY_AXES, FORCE, AREA, LARGEST, BACK, SHARE, LISTS };
 
 static const char *const names[LISTS] = {"hardening", "poisson", "share", "depth",   "force",
                                          "area",      "largest", "back",  "branches"};
-static const char format_name[] = "percuss contact family 1";
+static const char FORMAT_NAME[] = "percuss contact family 1";
 
 struct lists {
     size_t count[LISTS];
@@ -52,8 +52,8 @@ static struct contact_family_samples samples_of(const struct lists *lists)
     };
 }
 
-static json_t *object_of(const struct contact_family_samples *samples,
-                         const struct family_origin *origin)
+static json_t *family_object(const struct contact_family_samples *samples,
+                             const struct family_origin *origin)
 {
     size_t tables = samples->count[0] * samples->count[1] * samples->count[2];
     /* lists in the order of `names` */
@@ -71,7 +71,7 @@ static json_t *object_of(const struct contact_family_samples *samples,
                                    samples->largest, samples->back,    samples->share};
     /* what it is and how it came about, then the lists */
     json_t *object = json_pack(
-        "{s:s, s:s, s:I, s:{s:I, s:I, s:f}, s:f, s:f, s:I, s:I}", "format", format_name, "made_by",
+        "{s:s, s:s, s:I, s:{s:I, s:I, s:f}, s:f, s:f, s:I, s:I}", "format", FORMAT_NAME, "made_by",
         origin->program, "indentation_version", (json_int_t)INDENTATION_VERSION, "effort", "coarse",
         (json_int_t)origin->coarse, "fine", (json_int_t)origin->fine, "seconds", origin->seconds,
         "computed", samples->computed, "error", samples->error, "branch_count",
@@ -81,14 +81,15 @@ static json_t *object_of(const struct contact_family_samples *samples,
     return object;
 }
 
-static enum percuss_status read_head(const json_t *root, struct lists *lists, struct fault *fault)
+static enum percuss_status family_read_head(const json_t *root, struct lists *lists,
+                                            struct fault *fault)
 {
     const char *format = json_string_value(json_object_get(root, "format"));
     size_t version;
     /* a file of this kind and version */
-    if (!format || strcmp(format, format_name) != 0)
+    if (!format || strcmp(format, FORMAT_NAME) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
-                         format ? format : "missing", format_name);
+                         format ? format : "missing", FORMAT_NAME);
     enum percuss_status status = json_numbers_take_whole(
         json_object_get(root, "indentation_version"), "indentation_version", &version, fault);
     if (!status && version != INDENTATION_VERSION)
@@ -127,9 +128,10 @@ static size_t expected_count(const struct lists *lists, size_t list)
     }
 }
 
-static enum percuss_status read_lists(const json_t *root, struct lists *lists, struct fault *fault)
+static enum percuss_status family_read_lists(const json_t *root, struct lists *lists,
+                                             struct fault *fault)
 {
-    enum percuss_status status = read_head(root, lists, fault);
+    enum percuss_status status = family_read_head(root, lists, fault);
     for (size_t i = 0; i < LISTS && !status; i++) {
         lists->count[i] = expected_count(lists, i);
         status = json_numbers_take_array(json_object_get(root, names[i]), names[i],
@@ -143,13 +145,13 @@ static enum percuss_status read_lists(const json_t *root, struct lists *lists, s
     return status;
 }
 
-static void content_key(const struct lists *lists, char key[TABLE_KEY_SIZE])
+static void family_content_key(const struct lists *lists, char key[TABLE_KEY_SIZE])
 {
     table_numbers_key(LISTS, lists->count, (const double *const *)lists->values, key);
 }
 
 /* The object with the hash of its numbers as they are read back. */
-static char *text_of(json_t *object)
+static char *family_text(json_t *object)
 {
     struct lists lists = {0};
     struct fault fault;
@@ -158,8 +160,8 @@ static char *text_of(json_t *object)
     json_t *again = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     text = NULL;
-    if (again && read_lists(again, &lists, &fault) == PERCUSS_OK) {
-        content_key(&lists, key);
+    if (again && family_read_lists(again, &lists, &fault) == PERCUSS_OK) {
+        family_content_key(&lists, key);
         json_object_set_new(object, "content", json_string(key));
         text = json_numbers_text(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
     }
@@ -175,8 +177,8 @@ enum percuss_status family_file_save(const char *folder,
 {
     if (snprintf(path, TABLE_PATH_SIZE, "%s/" FAMILY_FILE_NAME, folder) >= TABLE_PATH_SIZE)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: too long a path", folder);
-    json_t *object = object_of(samples, origin);
-    char *text = object ? text_of(object) : NULL;
+    json_t *object = family_object(samples, origin);
+    char *text = object ? family_text(object) : NULL;
     json_decref(object);
     if (!text)
         return fault_set(fault, PERCUSS_INTERNAL, "contact family: out of memory");
@@ -190,9 +192,9 @@ static struct contact_family *family_of(const json_t *root, struct fault *fault)
     struct lists lists = {0};
     struct contact_family *family = NULL;
     char key[TABLE_KEY_SIZE];
-    enum percuss_status status = read_lists(root, &lists, fault);
+    enum percuss_status status = family_read_lists(root, &lists, fault);
     if (!status) {
-        content_key(&lists, key);
+        family_content_key(&lists, key);
         status = json_numbers_check_hash(root, "content", key, fault);
     }
     if (!status) {

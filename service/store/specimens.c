@@ -3,21 +3,354 @@
 
 #include "store/specimens.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "store/database.h"
 #include "store/database_check.h"
-#include "store/dents.h"
-#include "store/nature.h"
-#include "store/schema.h"
 
 struct specimen_store {
     struct database database;
     unsigned most_replies;
     size_t specimens, replies;
 };
+
+/* ---- dents of a specimen ---- */
+
+enum { DENT_COLUMNS = 8 };
+
+/* So that no column is forgotten when a dent learns something new. */
+_Static_assert(sizeof(struct dent) == DENT_COLUMNS * sizeof(double), "dents have other columns");
+
+/* Reads the dents of the specimen with that row, for free(); *state NULL: none. */
+static enum percuss_status dents_read(struct database *database, int64_t id,
+                                      struct body_state **state, struct fault *fault)
+{
+    /* how many there are */
+    sqlite3_stmt *counting = database_statement(database, STATEMENT_DENT_COUNT);
+    *state = NULL;
+    sqlite3_bind_int64(counting, 1, id);
+    if (sqlite3_step(counting) != SQLITE_ROW)
+        return database_fault(database, "dents", fault);
+    struct body_state sizes = {.dents = (size_t)sqlite3_column_int64(counting, 0)};
+    sqlite3_reset(counting);
+    if (sizes.dents == 0)
+        return PERCUSS_OK;
+    if (sizes.dents > BODY_STATE_MAX_DENTS)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu dents of one specimen: must be at most %d",
+                         sizes.dents, BODY_STATE_MAX_DENTS);
+    /* a state of that size */
+    struct body_state *read = malloc(body_state_size(&sizes));
+    if (!read)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    *read = sizes;
+    /* it is at rest: no mode is left out */
+    for (size_t f = 0; f < sizeof read->known / sizeof *read->known; f++)
+        read->known[f] = SIZE_MAX;
+    /* their numbers, in the order of the struct */
+    sqlite3_stmt *statement = database_statement(database, STATEMENT_DENTS);
+    sqlite3_bind_int64(statement, 1, id);
+    double *numbers = (double *)body_state_dents(read);
+    size_t rows = 0;
+    for (; rows < sizes.dents && sqlite3_step(statement) == SQLITE_ROW; rows++)
+        for (int column = 0; column < DENT_COLUMNS; column++)
+            *numbers++ = sqlite3_column_double(statement, column);
+    if (rows < sizes.dents) {
+        free(read);
+        return database_fault(database, "dents", fault);
+    }
+    sqlite3_reset(statement);
+    *state = read;
+    return PERCUSS_OK;
+}
+
+static bool write_dent(struct database *database, int64_t id, size_t number,
+                       const struct dent *dent)
+{
+    sqlite3_stmt *statement = database_statement(database, STATEMENT_DENT);
+    const double *numbers = (const double *)dent;
+    sqlite3_bind_int64(statement, 1, id);
+    sqlite3_bind_int64(statement, 2, (int64_t)number);
+    for (int column = 0; column < DENT_COLUMNS; column++)
+        sqlite3_bind_double(statement, 3 + column, numbers[column]);
+    return database_run(statement);
+}
+
+/* Puts the dents of a state (NULL: none) in place of those that the specimen had; within the
+ * caller's transaction. */
+static bool dents_write(struct database *database, int64_t id, const struct body_state *state)
+{
+    sqlite3_stmt *smooth = database_statement(database, STATEMENT_SMOOTH);
+    sqlite3_bind_int64(smooth, 1, id);
+    bool good = database_run(smooth);
+    size_t count = state ? state->dents : 0;
+    for (size_t i = 0; good && i < count; i++)
+        good = write_dent(database, id, i, &body_state_dents(state)[i]);
+    return good;
+}
+
+/* Adds dents to a checksum as the store returns them: -0 becomes 0. */
+static void dents_hash(struct hasher *hasher, const struct body_state *state)
+{
+    size_t count = state ? DENT_COLUMNS * state->dents : 0;
+    const double *numbers = state ? (const double *)body_state_dents(state) : NULL;
+    hash_number(hasher, count);
+    for (size_t i = 0; i < count; i++) {
+        double number = numbers[i] + 0.0;
+        uint64_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        hash_number(hasher, bits);
+    }
+}
+
+/* ---- stored replies: the last ones, and of each client the highest number among those that are no
+ * longer kept, its mark ---- */
+
+enum { CLIENT_SIZE = 16 };
+
+static struct digest mark_checksum(const void *client, uint64_t mark)
+{
+    struct hasher hasher = {0};
+    hash_bytes(&hasher, client, CLIENT_SIZE);
+    hash_number(&hasher, mark);
+    return hash_digest(&hasher);
+}
+
+/* The mark in a row, if it is what was set. Sequences are unsigned, columns are not. */
+static bool take_mark(sqlite3_stmt *row, uint64_t *mark)
+{
+    *mark = (uint64_t)sqlite3_column_int64(row, 1);
+    if (sqlite3_column_bytes(row, 0) != CLIENT_SIZE)
+        return false;
+    struct digest sum = mark_checksum(sqlite3_column_blob(row, 0), *mark);
+    return database_matches(row, 2, &sum);
+}
+
+static enum percuss_status refuse_mark(struct database *database, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_INTERNAL,
+                     "%s: the mark of a client is damaged: nobody knows which of its requests were "
+                     "answered: restore the store from a copy",
+                     database->path);
+}
+
+/* The mark of a client; 0: it has none. */
+static enum percuss_status read_mark(struct database *database, const void *client, uint64_t *mark,
+                                     struct fault *fault)
+{
+    sqlite3_stmt *statement = database_statement(database, STATEMENT_MARKED);
+    enum percuss_status status = PERCUSS_OK;
+    *mark = 0;
+    sqlite3_bind_blob(statement, 1, client, CLIENT_SIZE, SQLITE_STATIC);
+    int found = sqlite3_step(statement);
+    if (found == SQLITE_ROW)
+        status = take_mark(statement, mark) ? PERCUSS_OK : refuse_mark(database, fault);
+    else if (found != SQLITE_DONE)
+        status = database_fault(database, "stored replies", fault);
+    sqlite3_reset(statement);
+    return status;
+}
+
+static bool set_mark(struct database *database, const void *client, uint64_t mark)
+{
+    sqlite3_stmt *set = database_statement(database, STATEMENT_MARK);
+    struct digest sum = mark_checksum(client, mark);
+    sqlite3_bind_blob(set, 1, client, CLIENT_SIZE, SQLITE_STATIC);
+    sqlite3_bind_int64(set, 2, (int64_t)mark);
+    sqlite3_bind_blob(set, 3, &sum, sizeof sum, SQLITE_STATIC);
+    return database_run(set);
+}
+
+/* Drops the reply that was stored first and sets the mark of its client; within the caller's
+ * transaction. */
+static bool replies_drop_oldest(struct database *database)
+{
+    uint8_t client[CLIENT_SIZE];
+    uint64_t mark;
+    sqlite3_stmt *oldest = database_statement(database, STATEMENT_OLDEST);
+    /* the reply that was stored first */
+    if (sqlite3_step(oldest) != SQLITE_ROW || sqlite3_column_bytes(oldest, 1) != CLIENT_SIZE)
+        return false;
+    int64_t id = sqlite3_column_int64(oldest, 0);
+    memcpy(client, sqlite3_column_blob(oldest, 1), sizeof client);
+    uint64_t sequence = (uint64_t)sqlite3_column_int64(oldest, 2);
+    sqlite3_reset(oldest);
+    sqlite3_stmt *drop = database_statement(database, STATEMENT_DROP);
+    sqlite3_bind_int64(drop, 1, id);
+    if (!database_run(drop) || read_mark(database, client, &mark, NULL))
+        return false;
+    /* its client's mark: replies up to there are no longer kept */
+    return sequence <= mark || set_mark(database, client, sequence);
+}
+
+/* Over all that a row says. */
+static struct digest reply_checksum(const struct stored_reply *reply)
+{
+    struct hasher hasher = {0};
+    hash_bytes(&hasher, reply->client, sizeof reply->client);
+    hash_number(&hasher, reply->sequence);
+    hash_bytes(&hasher, reply->content, sizeof reply->content);
+    hash_bytes(&hasher, reply->bytes, reply->size);
+    return hash_digest(&hasher);
+}
+
+/* Keeps a reply, with a checksum over its whole row; within the caller's transaction. */
+static bool replies_keep(struct database *database, const struct stored_reply *reply)
+{
+    sqlite3_stmt *keep = database_statement(database, STATEMENT_KEEP);
+    sqlite3_bind_blob(keep, 1, reply->client, sizeof reply->client, SQLITE_STATIC);
+    sqlite3_bind_int64(keep, 2, (int64_t)reply->sequence);
+    sqlite3_bind_blob(keep, 3, reply->content, sizeof reply->content, SQLITE_STATIC);
+    sqlite3_bind_blob64(keep, 4, reply->bytes, reply->size, SQLITE_STATIC);
+    struct digest sum = reply_checksum(reply);
+    sqlite3_bind_blob(keep, 5, &sum, sizeof sum, SQLITE_STATIC);
+    return database_run(keep);
+}
+
+/* Whether the row has the sizes of a reply. */
+static bool reply_is_shaped(sqlite3_stmt *row, const struct stored_reply *reply)
+{
+    return sqlite3_column_bytes(row, 0) == CLIENT_SIZE &&
+           sqlite3_column_bytes(row, 2) == sizeof reply->content &&
+           sqlite3_column_bytes(row, 3) > 0;
+}
+
+/* The row as a reply, whose bytes stay the row's; false: it is not what was kept. */
+static bool reply_read_row(sqlite3_stmt *row, struct stored_reply *reply)
+{
+    if (!reply_is_shaped(row, reply))
+        return false;
+    memcpy(reply->client, sqlite3_column_blob(row, 0), sizeof reply->client);
+    reply->sequence = (uint64_t)sqlite3_column_int64(row, 1);
+    memcpy(reply->content, sqlite3_column_blob(row, 2), sizeof reply->content);
+    reply->size = (size_t)sqlite3_column_bytes(row, 3);
+    reply->bytes = (void *)sqlite3_column_blob(row, 3);
+    struct digest sum = reply_checksum(reply);
+    return database_matches(row, 4, &sum);
+}
+
+static enum percuss_status reply_refuse_damaged(struct database *database,
+                                                struct stored_reply *reply, struct fault *fault)
+{
+    reply->damaged = true;
+    return fault_set(
+        fault, PERCUSS_INTERNAL,
+        "%s: the stored reply to request %llu is damaged: its size or checksum differs",
+        database->path, (unsigned long long)reply->sequence);
+}
+
+/* Copies the row to the reply, if it is what was kept. What a row says is in memory: taking it does
+ * not read the file. */
+static enum percuss_status take_reply(struct database *database, sqlite3_stmt *row,
+                                      struct stored_reply *reply, struct fault *fault)
+{
+    struct stored_reply kept;
+    if (!reply_read_row(row, &kept))
+        return reply_refuse_damaged(database, reply, fault);
+    void *bytes = malloc(kept.size);
+    if (!bytes)
+        return fault_set(fault, PERCUSS_INTERNAL, "%s: stored replies: out of memory",
+                         database->path);
+    *reply = kept;
+    reply->bytes = memcpy(bytes, kept.bytes, kept.size);
+    reply->damaged = false;
+    return PERCUSS_OK;
+}
+
+/* Complains of replies and marks that differ from the stored ones. False: they cannot be read. */
+static bool replies_audit(struct database *database, struct audit *audit)
+{
+    char problem[160];
+    int found;
+    /* replies: each can be done without */
+    sqlite3_stmt *replies = database_statement(database, STATEMENT_REPLIES);
+    for (; (found = sqlite3_step(replies)) == SQLITE_ROW; audit->replies++) {
+        struct stored_reply reply;
+        if (reply_read_row(replies, &reply))
+            continue;
+        snprintf(problem, sizeof problem,
+                 "the stored reply to request %llu is damaged: its size or checksum differs",
+                 (unsigned long long)sqlite3_column_int64(replies, 1));
+        audit->complain(audit->context, problem);
+        audit->damaged++;
+    }
+    bool good = found == SQLITE_DONE;
+    sqlite3_reset(replies);
+    /* marks: without them requests might be answered twice */
+    sqlite3_stmt *marks = database_statement(database, STATEMENT_MARKS);
+    for (; good && (found = sqlite3_step(marks)) == SQLITE_ROW; audit->marks++) {
+        uint64_t mark;
+        if (take_mark(marks, &mark))
+            continue;
+        audit->complain(audit->context, "the mark of a client is damaged: its checksum differs");
+        audit->damaged++;
+        audit->unusable = true;
+    }
+    good = good && found == SQLITE_DONE;
+    sqlite3_reset(marks);
+    return good;
+}
+
+static bool fill_marks(struct database *database)
+{
+    sqlite3_stmt *marks = database_statement(database, STATEMENT_MARKS);
+    int found;
+    bool good = true;
+    while (good && (found = sqlite3_step(marks)) == SQLITE_ROW) {
+        uint8_t client[CLIENT_SIZE];
+        good = sqlite3_column_bytes(marks, 0) == CLIENT_SIZE;
+        if (!good)
+            continue;
+        memcpy(client, sqlite3_column_blob(marks, 0), sizeof client);
+        good = set_mark(database, client, (uint64_t)sqlite3_column_int64(marks, 1));
+    }
+    sqlite3_reset(marks);
+    return good && found == SQLITE_DONE;
+}
+
+/* Gives a checksum to replies and marks of older files, which have none. */
+static bool replies_fill(struct database *database)
+{
+    sqlite3_stmt *replies = database_statement(database, STATEMENT_REPLIES);
+    int found;
+    bool good = true;
+    while (good && (found = sqlite3_step(replies)) == SQLITE_ROW) {
+        struct stored_reply reply;
+        if (sqlite3_column_type(replies, 4) != SQLITE_NULL)
+            continue;
+        /* what is no reply stays without, and is found to be damaged when it is asked for */
+        reply_read_row(replies, &reply);
+        if (!reply_is_shaped(replies, &reply))
+            continue;
+        struct digest sum = reply_checksum(&reply);
+        sqlite3_stmt *seal = database_statement(database, STATEMENT_SEAL_REPLY);
+        sqlite3_bind_int64(seal, 1, sqlite3_column_int64(replies, 5));
+        sqlite3_bind_blob(seal, 2, &sum, sizeof sum, SQLITE_STATIC);
+        good = database_run(seal);
+    }
+    sqlite3_reset(replies);
+    return good && found == SQLITE_DONE && fill_marks(database);
+}
+
+/* ---- specimens ---- */
+
+enum { SIGNATURE_SIZE = 768 };
+
+/* All numbers of a body that its dents depend on, in words and 17 digits: shape, sizes, elastic and
+ * plastic constants of the material; neither modes nor its name. The column `nature` holds it. */
+static void describe_signature(const struct body *body, char signature[SIGNATURE_SIZE])
+{
+    const struct material *material = &body->material;
+    snprintf(signature, SIGNATURE_SIZE,
+             "%s radius %.17g length %.17g width %.17g height %.17g tip_radius %.17g size %.17g "
+             "%.17g %.17g young %.17g poisson %.17g density %.17g yield %.17g tangent %.17g",
+             body->kind->name, body->radius, body->length, body->width, body->height,
+             body->tip_radius, body->size[0], body->size[1], body->size[2], material->young,
+             material->poisson, material->density, material->yield, material->tangent);
+}
 
 static enum percuss_status count_all(struct specimen_store *store, struct fault *fault)
 {
@@ -34,31 +367,31 @@ static enum percuss_status count_all(struct specimen_store *store, struct fault 
 struct specimen_row {
     int64_t id;
     struct specimen specimen;
-    const char *nature;
+    const char *signature;
 };
 
-static struct digest checksum(const struct specimen_row *row)
+static struct digest specimen_checksum(const struct specimen_row *row)
 {
     struct hasher hasher = {0};
     hash_text(&hasher, row->specimen.name);
     hash_text(&hasher, row->specimen.body);
-    hash_text(&hasher, row->nature);
+    hash_text(&hasher, row->signature);
     hash_number(&hasher, row->specimen.impacts);
     dents_hash(&hasher, row->specimen.state);
     return hash_digest(&hasher);
 }
 
 /* What the row says, without dents; false: out of memory, or it is none of a specimen. */
-static bool take_row(sqlite3_stmt *statement, struct specimen_row *row)
+static bool specimen_take_row(sqlite3_stmt *statement, struct specimen_row *row)
 {
     *row = (struct specimen_row){
         .id = sqlite3_column_int64(statement, 0),
         .specimen = {.name = (const char *)sqlite3_column_text(statement, 1),
                      .body = (const char *)sqlite3_column_text(statement, 2),
                      .impacts = (uint64_t)sqlite3_column_int64(statement, 4)},
-        .nature = (const char *)sqlite3_column_text(statement, 3),
+        .signature = (const char *)sqlite3_column_text(statement, 3),
     };
-    return row->specimen.name && row->specimen.body && row->nature;
+    return row->specimen.name && row->specimen.body && row->signature;
 }
 
 /* The row with its dents, for free(); BAD_REQUEST: it is not what was stored. */
@@ -67,13 +400,13 @@ static enum percuss_status take_specimen(struct specimen_store *store, sqlite3_s
                                          struct fault *fault)
 {
     *state = NULL;
-    if (!take_row(statement, row))
+    if (!specimen_take_row(statement, row))
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", store->database.path);
     enum percuss_status status = dents_read(&store->database, row->id, state, fault);
     row->specimen.state = *state;
     if (status)
         return status;
-    struct digest sum = checksum(row);
+    struct digest sum = specimen_checksum(row);
     if (database_matches(statement, 5, &sum))
         return PERCUSS_OK;
     free(*state);
@@ -85,7 +418,7 @@ static enum percuss_status take_specimen(struct specimen_store *store, sqlite3_s
         row->specimen.name);
 }
 
-static bool seal(struct database *database, int64_t id, const struct digest *sum)
+static bool specimen_seal(struct database *database, int64_t id, const struct digest *sum)
 {
     sqlite3_stmt *statement = database_statement(database, STATEMENT_SEAL);
     sqlite3_bind_int64(statement, 1, id);
@@ -94,7 +427,7 @@ static bool seal(struct database *database, int64_t id, const struct digest *sum
 }
 
 /* Gives a checksum to what older files hold without. */
-static bool fill(struct database *database)
+static bool store_fill(struct database *database)
 {
     sqlite3_stmt *list = database_statement(database, STATEMENT_LIST);
     int found = SQLITE_ERROR;
@@ -102,10 +435,10 @@ static bool fill(struct database *database)
     while (good && (found = sqlite3_step(list)) == SQLITE_ROW) {
         struct specimen_row row;
         struct body_state *state = NULL;
-        good = take_row(list, &row) && !dents_read(database, row.id, &state, NULL);
+        good = specimen_take_row(list, &row) && !dents_read(database, row.id, &state, NULL);
         row.specimen.state = state;
-        struct digest sum = good ? checksum(&row) : (struct digest){0, 0};
-        good = good && seal(database, row.id, &sum);
+        struct digest sum = good ? specimen_checksum(&row) : (struct digest){0, 0};
+        good = good && specimen_seal(database, row.id, &sum);
         free(state);
     }
     sqlite3_reset(list);
@@ -121,9 +454,7 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     created->most_replies = replies;
     /* our file, and how much it holds */
-    static const struct database_design design = {SCHEMA_VERSION, schema_new, schema_upgrades, fill,
-                                                  schema_statements};
-    enum percuss_status status = database_open(&created->database, path, &design, fault);
+    enum percuss_status status = database_open(&created->database, path, store_fill, fault);
     /* SQLite does not say that the folder is missing */
     if (status == PERCUSS_BAD_REQUEST && access(path, F_OK) != 0)
         (void)database_folder_check(path, fault);
@@ -151,10 +482,10 @@ size_t specimen_store_count(const struct specimen_store *store)
 }
 
 /* Whether the row is of that body, as it is now. */
-static enum percuss_status check_body(const struct specimen_row *row, const struct body *body,
-                                      struct fault *fault)
+static enum percuss_status specimen_check_body(const struct specimen_row *row,
+                                               const struct body *body, struct fault *fault)
 {
-    char nature[NATURE_SIZE];
+    char signature[SIGNATURE_SIZE];
     const char *name = row->specimen.name, *id = row->specimen.body;
     /* it was made of the body of this id */
     if (strcmp(id, body->id) != 0)
@@ -163,8 +494,8 @@ static enum percuss_status check_body(const struct specimen_row *row, const stru
                          "first",
                          name, id, body->id);
     /* whose shape, size and material are what they were */
-    nature_describe(body, nature);
-    if (strcmp(row->nature, nature) == 0)
+    describe_signature(body, signature);
+    if (strcmp(row->signature, signature) == 0)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "%s: is a specimen of another %s, whose shape, size or material was not that "
@@ -180,7 +511,7 @@ static enum percuss_status load_row(struct specimen_store *store, sqlite3_stmt *
     struct specimen_row row;
     if (take_specimen(store, statement, &row, state, fault))
         return PERCUSS_INTERNAL;
-    enum percuss_status status = check_body(&row, body, fault);
+    enum percuss_status status = specimen_check_body(&row, body, fault);
     if (status) {
         free(*state);
         *state = NULL;
@@ -216,28 +547,28 @@ enum percuss_status specimen_store_load(struct specimen_store *store, const char
 static bool write_change(struct specimen_store *store, const struct specimen_change *change,
                          size_t *created)
 {
-    char nature[NATURE_SIZE];
-    nature_describe(change->body, nature);
+    char signature[SIGNATURE_SIZE];
+    describe_signature(change->body, signature);
     /* one impact more of the name, which is new maybe */
     sqlite3_stmt *hit = database_statement(&store->database, STATEMENT_HIT);
     sqlite3_bind_text(hit, 1, change->name, -1, SQLITE_STATIC);
     sqlite3_bind_text(hit, 2, change->body->id, -1, SQLITE_STATIC);
-    sqlite3_bind_text(hit, 3, nature, -1, SQLITE_STATIC);
+    sqlite3_bind_text(hit, 3, signature, -1, SQLITE_STATIC);
     if (sqlite3_step(hit) != SQLITE_ROW)
         return false;
     struct specimen_row row;
-    if (!take_row(hit, &row))
+    if (!specimen_take_row(hit, &row))
         return false;
     *created += row.specimen.impacts == 1;
     row.specimen.state = change->after;
-    struct digest sum = checksum(&row);
+    struct digest sum = specimen_checksum(&row);
     /* a RETURNING statement must run to its end */
     if (sqlite3_step(hit) != SQLITE_DONE)
         return false;
     sqlite3_reset(hit);
     /* its dents are those after the impact */
     return dents_write(&store->database, row.id, change->after) &&
-           seal(&store->database, row.id, &sum);
+           specimen_seal(&store->database, row.id, &sum);
 }
 
 enum percuss_status specimen_store_commit(struct specimen_store *store,
@@ -269,7 +600,31 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
                                         struct fault *fault)
 {
-    return replies_find(&store->database, reply, fault);
+    struct database *database = &store->database;
+    uint64_t mark;
+    sqlite3_stmt *statement = database_statement(database, STATEMENT_REPLY);
+    reply->bytes = NULL;
+    reply->damaged = false;
+    /* the reply, where it is kept */
+    sqlite3_bind_blob(statement, 1, reply->client, sizeof reply->client, SQLITE_STATIC);
+    sqlite3_bind_int64(statement, 2, (int64_t)reply->sequence);
+    int found = sqlite3_step(statement);
+    if (found == SQLITE_ROW) {
+        enum percuss_status status = take_reply(database, statement, reply, fault);
+        sqlite3_reset(statement);
+        return status;
+    }
+    /* below the client's mark it was once */
+    if (found != SQLITE_DONE)
+        return database_fault(database, "stored replies", fault);
+    sqlite3_reset(statement);
+    enum percuss_status status = read_mark(database, reply->client, &mark, fault);
+    if (status || reply->sequence > mark)
+        return status;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "sequence: %llu: replies up to %llu of this client are no longer kept: must "
+                     "be above",
+                     (unsigned long long)reply->sequence, (unsigned long long)mark);
 }
 
 enum percuss_status specimen_store_visit(struct specimen_store *store, const char *name,

@@ -8,12 +8,12 @@
 #define PERCUSS_STORE_SPECIMENS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/fault.h"
 #include "contact/body_state.h"
 #include "model/body.h"
-#include "store/replies.h"
 
 struct audit;
 
@@ -44,13 +44,28 @@ struct specimen_change {
     const struct body_state *after; /* its dents are kept; NULL: none */
 };
 
+/* The reply to a request. */
+struct stored_reply {
+    uint8_t client[16];
+    uint64_t sequence;
+    uint64_t content[2]; /* hash of the request */
+    size_t size;
+    void *bytes;  /* in the form the caller chose */
+    bool damaged; /* found, but not what was kept */
+};
+
 /* Makes the changes and the reply (NULL: none is kept) durable, in one transaction. After
  * PERCUSS_INTERNAL nothing has changed. */
 enum percuss_status specimen_store_commit(struct specimen_store *store,
                                           const struct specimen_change *changes, size_t count,
                                           const struct stored_reply *reply, struct fault *fault);
 
-/* The kept reply of reply->client and ->sequence, see replies_find. */
+/* The reply kept under reply->client and ->sequence: fills in the rest, and the caller free()s
+ * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: replies of that client with
+ * numbers as high are no longer kept, so that nobody knows whether there was one. PERCUSS_INTERNAL:
+ * with ->damaged what the file holds is not what was kept: its size or checksum differs; without,
+ * it cannot be read now, or the mark of its client is damaged, and nobody knows whether there was
+ * one. */
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
                                         struct fault *fault);
 

@@ -4,12 +4,40 @@
 #include "store/table_curves.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "contact/plastic.h"
-#include "store/branch_shares.h"
+#include "numeric/spline.h"
+
+/* Whether a recovery [INDENTATION_SAMPLES] rises from 0 to 1. */
+static bool branch_shares_possible(const double *recovery)
+{
+    for (size_t j = 1; j < INDENTATION_SAMPLES; j++)
+        if (!(recovery[j] > recovery[j - 1]))
+            return false;
+    return recovery[0] == 0.0 && recovery[INDENTATION_SAMPLES - 1] == 1.0;
+}
+
+void branch_shares_fill(const double *recovery, double part, size_t count, double *share,
+                        double scratch[BRANCH_SHARES_SCRATCH])
+{
+    struct spline spline = {INDENTATION_SAMPLES, scratch, scratch + INDENTATION_SAMPLES,
+                            scratch + 2 * INDENTATION_SAMPLES};
+    for (size_t j = 0; j < INDENTATION_SAMPLES; j++) {
+        double root = cbrt(indentation_fraction(j));
+        spline.value[j] = root * root;
+        spline.place[j] = spline.value[j] + part * (recovery[j] - spline.value[j]);
+    }
+    spline_set_slopes(&spline, scratch + 3 * INDENTATION_SAMPLES);
+    for (size_t i = 1; i + 1 < count; i++) {
+        double slope;
+        double value = spline_at(&spline, (double)i / (double)(count - 1), &slope);
+        share[i] = value * sqrt(value);
+    }
+    share[0] = 0.0;
+    share[count - 1] = 1.0;
+}
 
 /* Samples of a branch at equal steps of the way back: twice those of the computation, which lie
  * close together where the force is small. */
@@ -31,15 +59,15 @@ static const double JUST_BEYOND = 1.0 + 1e-6;
 enum { BEYOND = 25 };
 #define BEYOND_STEP 1.2589254117941673
 
-static double rising(double value, double before)
+static double at_least_rising(double value, double before)
 {
     return fmax(value, before * (1.0 + 1e-9));
 }
 
 /* The origin, Hertz up to first yield, the computed points beyond. The computed contact radius is
  * known to half an element only, and must not shrink. Returns the number of points. */
-static size_t fill_loading(const struct indentation_table *table, double *indentation,
-                           double *force, double *radius)
+static size_t sample_loading(const struct indentation_table *table, double *indentation,
+                             double *force, double *radius)
 {
     double yield = table->indentation[0];
     size_t count = 0;
@@ -53,12 +81,13 @@ static size_t fill_loading(const struct indentation_table *table, double *indent
     for (size_t i = 1; i < table->points; i++, count++) {
         indentation[count] = table->indentation[i];
         force[count] = table->force[i];
-        radius[count] = rising(table->radius[i], radius[count - 1]);
+        radius[count] = at_least_rising(table->radius[i], radius[count - 1]);
     }
     return count;
 }
 
-static enum percuss_status check(const struct indentation_table *table, struct fault *fault)
+static enum percuss_status table_curves_check(const struct indentation_table *table,
+                                              struct fault *fault)
 {
     if (table->points == 0 || table->branches == 0 || !(table->indentation[0] > 0.0) ||
         (table->points > 1) != (table->branches > 1))
@@ -83,7 +112,7 @@ struct samples {
     double range;    /* m, as in struct contact_table */
 };
 
-static bool make_room(struct samples *samples, size_t points, size_t branches)
+static bool samples_allocate(struct samples *samples, size_t points, size_t branches)
 {
     double *memory =
         calloc(3 * points + branches * (SHARES + 2) + BRANCH_SHARES_SCRATCH, sizeof *memory);
@@ -99,7 +128,7 @@ static bool make_room(struct samples *samples, size_t points, size_t branches)
     return true;
 }
 
-static void fill_branches(const struct indentation_table *table, struct samples *samples)
+static void sample_branches(const struct indentation_table *table, struct samples *samples)
 {
     for (size_t b = 0; b < samples->branches; b++) {
         size_t from = b < ONSET ? 1 : b - ONSET + 1;
@@ -117,7 +146,7 @@ static void fill_branches(const struct indentation_table *table, struct samples 
 }
 
 /* The last values times what the law makes of theirs from there on. */
-static void go_on(const struct contact_law *law, struct samples *samples)
+static void samples_continue(const struct contact_law *law, struct samples *samples)
 {
     const struct plastic_curve *curve = law->operations->curve;
     size_t last = samples->points - 1;
@@ -134,7 +163,8 @@ static void go_on(const struct contact_law *law, struct samples *samples)
         size_t to = last + i, branch = end + i;
         samples->indentation[to] = d;
         samples->force[to] = force * curve->force(law, d, &slope);
-        samples->radius[to] = rising(radius * curve->radius(law, d), samples->radius[to - 1]);
+        samples->radius[to] =
+            at_least_rising(radius * curve->radius(law, d), samples->radius[to - 1]);
         d = deepest * pow(BEYOND_STEP, (double)i);
         samples->largest[branch] = d;
         samples->residual[branch] = d - back * (d - curve->residual(law, d));
@@ -145,8 +175,8 @@ static void go_on(const struct contact_law *law, struct samples *samples)
     samples->branches += BEYOND;
 }
 
-static bool go_on_by_family(const struct indentation_table *table,
-                            const struct contact_family *family, struct samples *samples)
+static bool samples_continue_by_family(const struct indentation_table *table,
+                                       const struct contact_family *family, struct samples *samples)
 {
     const struct material *a = &table->input.materials[0], *b = &table->input.materials[1];
     double curvature = 0.5 / table->input.radius;
@@ -157,7 +187,7 @@ static bool go_on_by_family(const struct indentation_table *table,
     const struct contact_curves *curves = contact_family_curves(family, &place, &arena);
     if (curves) {
         struct contact_law law = contact_law_family(curves, &hertz, a, b);
-        go_on(&law, samples);
+        samples_continue(&law, samples);
         samples->range = contact_law_table_range(&law);
     }
     arena_release(&arena);
@@ -169,18 +199,18 @@ enum percuss_status table_curves_make(const struct indentation_table *table,
                                       struct contact_curves **curves, struct fault *fault)
 {
     *curves = NULL;
-    enum percuss_status status = check(table, fault);
+    enum percuss_status status = table_curves_check(table, fault);
     if (status)
         return status;
     /* room for what is put in before the samples and after them */
     size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     struct samples samples = {.branches = branches};
-    if (!make_room(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND))
+    if (!samples_allocate(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     /* the samples in the form of a contact table */
-    samples.points = fill_loading(table, samples.indentation, samples.force, samples.radius);
-    fill_branches(table, &samples);
-    if (family && branches && !go_on_by_family(table, family, &samples))
+    samples.points = sample_loading(table, samples.indentation, samples.force, samples.radius);
+    sample_branches(table, &samples);
+    if (family && branches && !samples_continue_by_family(table, family, &samples))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     else
         status = contact_curves_create(

@@ -5,8 +5,22 @@
 #ifndef PERCUSS_STORE_TABLE_CURVES_H
 #define PERCUSS_STORE_TABLE_CURVES_H
 
+#include <stddef.h>
+
 #include "contact/family.h"
 #include "fe/indentation.h"
+
+/* ---- unloading branches: as computed (recovery at fractions of the force) and as laws take them
+ * (shares of the force at equal steps of the way back) ---- */
+
+enum { BRANCH_SHARES_SCRATCH = 5 * INDENTATION_SAMPLES };
+
+/* Fills share[count]. F^(2/3) is nearly a straight line of the way back, and interpolated by a
+ * spline; `part` of the way from Hertz's branch (0) to the computed one (1). */
+void branch_shares_fill(const double *recovery, double part, size_t count, double *share,
+                        double scratch[BRANCH_SHARES_SCRATCH]);
+
+/* ---- tables ---- */
 
 /* Beyond the table's last indentation its curves go on in proportion to those of the family, if
  * there is one (NULL: none). OK; BAD_REQUEST: the table's curves do not rise as they must;

@@ -16,29 +16,29 @@ __extension__ typedef unsigned __int128 wide;
 
 static const double MARGIN = 1.25, DEEPEST_SHARE = 0.02;
 
-static wide hash_start(void)
+static wide fnv_start(void)
 {
     return (wide)0x6c62272e07bb0142 << 64 | 0x62b821756295c58d;
 }
 
-static void hash_number(wide *hash, uint64_t number)
+static void fnv_number(wide *hash, uint64_t number)
 {
     const wide prime = ((wide)1 << 88) + 0x13b;
     for (int shift = 0; shift < 64; shift += 8)
         *hash = (*hash ^ (unsigned char)(number >> shift)) * prime;
 }
 
-static void hash_doubles(wide *hash, size_t count, const double *values)
+static void fnv_doubles(wide *hash, size_t count, const double *values)
 {
-    hash_number(hash, count);
+    fnv_number(hash, count);
     for (size_t i = 0; i < count; i++) {
         uint64_t bits;
         memcpy(&bits, &values[i], sizeof bits);
-        hash_number(hash, bits);
+        fnv_number(hash, bits);
     }
 }
 
-static void hash_write(wide hash, char key[TABLE_KEY_SIZE])
+static void fnv_write(wide hash, char key[TABLE_KEY_SIZE])
 {
     snprintf(key, TABLE_KEY_SIZE, "%016" PRIx64 "%016" PRIx64, (uint64_t)(hash >> 64),
              (uint64_t)hash);
@@ -66,12 +66,12 @@ void table_key(const struct region_input *input, char key[TABLE_KEY_SIZE])
     struct constants second = constants_of(&input->materials[1]);
     bool in_order = memcmp(&first, &second, sizeof first) <= 0;
     const double sizes[] = {input->radius, input->indentation, (double)input->resolution};
-    wide hash = hash_start();
-    hash_number(&hash, INDENTATION_VERSION);
-    hash_doubles(&hash, 4, in_order ? first.list : second.list);
-    hash_doubles(&hash, 4, in_order ? second.list : first.list);
-    hash_doubles(&hash, 3, sizes);
-    hash_write(hash, key);
+    wide hash = fnv_start();
+    fnv_number(&hash, INDENTATION_VERSION);
+    fnv_doubles(&hash, 4, in_order ? first.list : second.list);
+    fnv_doubles(&hash, 4, in_order ? second.list : first.list);
+    fnv_doubles(&hash, 3, sizes);
+    fnv_write(hash, key);
 }
 
 void table_content_key(const struct indentation_table *table, char key[TABLE_KEY_SIZE])
@@ -80,27 +80,27 @@ void table_content_key(const struct indentation_table *table, char key[TABLE_KEY
                              table->recovery_error};
     char inputs[TABLE_KEY_SIZE];
     table_key(&table->input, inputs);
-    wide hash = hash_start();
+    wide hash = fnv_start();
     for (size_t i = 0; i + 1 < TABLE_KEY_SIZE; i++)
-        hash_number(&hash, (unsigned char)inputs[i]);
-    hash_doubles(&hash, 4, errors);
-    hash_doubles(&hash, table->points, table->indentation);
-    hash_doubles(&hash, table->points, table->force);
-    hash_doubles(&hash, table->points, table->radius);
-    hash_doubles(&hash, table->branches, table->largest);
-    hash_doubles(&hash, table->branches, table->largest_force);
-    hash_doubles(&hash, table->branches, table->residual);
-    hash_doubles(&hash, table->branches * INDENTATION_SAMPLES, table->recovery);
-    hash_write(hash, key);
+        fnv_number(&hash, (unsigned char)inputs[i]);
+    fnv_doubles(&hash, 4, errors);
+    fnv_doubles(&hash, table->points, table->indentation);
+    fnv_doubles(&hash, table->points, table->force);
+    fnv_doubles(&hash, table->points, table->radius);
+    fnv_doubles(&hash, table->branches, table->largest);
+    fnv_doubles(&hash, table->branches, table->largest_force);
+    fnv_doubles(&hash, table->branches, table->residual);
+    fnv_doubles(&hash, table->branches * INDENTATION_SAMPLES, table->recovery);
+    fnv_write(hash, key);
 }
 
 void table_numbers_key(size_t lists, const size_t *counts, const double *const *values,
                        char key[TABLE_KEY_SIZE])
 {
-    wide hash = hash_start();
+    wide hash = fnv_start();
     for (size_t i = 0; i < lists; i++)
-        hash_doubles(&hash, counts[i], values[i]);
-    hash_write(hash, key);
+        fnv_doubles(&hash, counts[i], values[i]);
+    fnv_write(hash, key);
 }
 
 /* Indentation up to which a law takes up an energy, J. */

@@ -85,15 +85,15 @@ void table_store_advise(struct table_store *store, const struct contact_table_re
     store->source.remedy = *remedy;
 }
 
-static bool is_of(const struct table_entry *entry, const struct material *a,
-                  const struct material *b)
+static bool entry_is_of(const struct table_entry *entry, const struct material *a,
+                        const struct material *b)
 {
     const struct material *own = entry->materials;
     return (table_same_material(&own[0], a) && table_same_material(&own[1], b)) ||
            (table_same_material(&own[0], b) && table_same_material(&own[1], a));
 }
 
-static bool is_better(const struct table_entry *entry, const struct table_entry *other)
+static bool entry_is_better(const struct table_entry *entry, const struct table_entry *other)
 {
     if (entry->depth != other->depth)
         return entry->depth > other->depth;
@@ -107,7 +107,7 @@ const struct contact_curves *table_store_find(const struct table_store *store,
 {
     const struct table_entry *best = NULL;
     for (const struct table_entry *entry = atomic_load(&store->first); entry; entry = entry->next)
-        if (is_of(entry, a, b) && (!best || is_better(entry, best)))
+        if (entry_is_of(entry, a, b) && (!best || entry_is_better(entry, best)))
             best = entry;
     return best ? best->curves : NULL;
 }

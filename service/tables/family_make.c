@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "contact/law_closed_form.h"
-#include "store/branch_shares.h"
+#include "store/table_curves.h"
 
 /* Unloadings as close as the depths. */
 enum { ONSET = 4 };

@@ -18,7 +18,6 @@
 #include "model/body.h"
 #include "percuss/habits.h"
 #include "store/family_file.h"
-#include "store/folder.h"
 #include "store/table_file.h"
 #include "store/table_key.h"
 #include "tables/family_make.h"

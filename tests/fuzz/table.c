@@ -9,7 +9,7 @@
 #include "fuzz.h"
 #include "store/json_numbers.h"
 #include "store/table_curves.h"
-#include "store/table_json.h"
+#include "store/table_file.h"
 
 enum percuss_status __wrap_json_numbers_check_hash(const json_t *root, const char *name,
                                                    const char *expected, struct fault *fault);

@@ -14,7 +14,7 @@
 #include "catalogue/catalogue.h"
 #include "memory/failing.h"
 #include "store/specimens.h"
-#include "store/table_json.h"
+#include "store/table_file.h"
 #include "store/table_store.h"
 #include "unit/store/small_table.h"
 

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "store/database.h"
 #include "store/database_check.h"
-#include "store/schema.h"
 #include "store/specimens.h"
 
 static char folder[64], path[128];

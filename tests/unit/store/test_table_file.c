@@ -1,13 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/store/table_file.c and table_json.c: every bit comes back, damage is refused. */
+/* Mirrors service/store/table_file.c: every bit comes back, damage is refused. */
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "store/table_file.h"
-#include "store/table_json.h"
 #include "unit/store/small_table.h"
 
 static const struct table_origin origin = {"test 1", 0.5};
