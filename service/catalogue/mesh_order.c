@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/sha256.h"
-#include "mesh/mesh_digest.h"
+#include "mesh/mesh_read.h"
 #include "model/key.h"
 
 /* Version of percuss-reduce's results: raise it where they change for the same mesh. */

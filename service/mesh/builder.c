@@ -99,14 +99,14 @@ static int compare_labels(const void *left, const void *right)
     return a->index < b->index ? -1 : a->index > b->index;
 }
 
-static int compare_numbers(const void *left, const void *right)
+static int compare_sizes(const void *left, const void *right)
 {
     size_t a = *(const size_t *)left, b = *(const size_t *)right;
     return a < b ? -1 : a > b;
 }
 
 /* the place of a label among the nodes; SIZE_MAX: there is none */
-static size_t find(const struct index *index, size_t label)
+static size_t builder_find(const struct index *index, size_t label)
 {
     size_t low = 0, high = index->count;
     while (low < high) {
@@ -120,7 +120,7 @@ static size_t find(const struct index *index, size_t label)
                                                                    : SIZE_MAX;
 }
 
-static enum percuss_status out_of_memory(const char *file, struct fault *fault)
+static enum percuss_status builder_out_of_memory(const char *file, struct fault *fault)
 {
     return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
 }
@@ -133,7 +133,7 @@ static enum percuss_status make_index(const struct builder *builder, const char 
     index->labels = malloc((index->count + 1) * sizeof *index->labels);
     index->numbers = malloc((index->count + 1) * sizeof *index->numbers);
     if (!index->labels || !index->numbers)
-        return out_of_memory(file, fault);
+        return builder_out_of_memory(file, fault);
     for (size_t i = 0; i < index->count; i++) {
         index->labels[i] = (struct label){builder->nodes[i].label, i};
         index->numbers[i] = SIZE_MAX;
@@ -154,10 +154,10 @@ static enum percuss_status check_elements(const struct builder *builder, const c
 {
     size_t count = builder->element_count, *labels = malloc((count + 1) * sizeof *labels);
     if (!labels)
-        return out_of_memory(file, fault);
+        return builder_out_of_memory(file, fault);
     for (size_t i = 0; i < count; i++)
         labels[i] = builder->elements[i].label;
-    qsort(labels, count, sizeof *labels, compare_numbers);
+    qsort(labels, count, sizeof *labels, compare_sizes);
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 1; i < count && status == PERCUSS_OK; i++)
         if (labels[i] == labels[i - 1])
@@ -169,8 +169,8 @@ static enum percuss_status check_elements(const struct builder *builder, const c
     return status;
 }
 
-static enum percuss_status take_memory(const struct builder *builder, const char *file,
-                                       struct solid_mesh *mesh, struct fault *fault)
+static enum percuss_status builder_allocate_mesh(const struct builder *builder, const char *file,
+                                                 struct solid_mesh *mesh, struct fault *fault)
 {
     size_t elements = builder->element_count, nodes = builder->connectivity.count;
     mesh->points = malloc((builder->node_count + 1) * sizeof *mesh->points);
@@ -185,7 +185,7 @@ static enum percuss_status take_memory(const struct builder *builder, const char
     return mesh->points && mesh->labels && mesh->types && mesh->first && mesh->nodes &&
                    mesh->parts && mesh->element_labels && mesh->part && mesh->set
                ? PERCUSS_OK
-               : out_of_memory(file, fault);
+               : builder_out_of_memory(file, fault);
 }
 
 /* elements in the order of the file, nodes in the order of their first use */
@@ -203,7 +203,7 @@ static enum percuss_status place_elements(const struct builder *builder, const c
         mesh->element_labels[e] = element->label;
         /* its nodes, by their numbers; a node that is met first gets the next */
         for (size_t i = element->first; i < element->first + count; i++) {
-            size_t at = find(index, builder->connectivity.values[i]);
+            size_t at = builder_find(index, builder->connectivity.values[i]);
             if (at == SIZE_MAX)
                 return fault_set(fault, PERCUSS_BAD_REQUEST,
                                  "%s: element %zu: node %zu: must be one of the file's nodes", file,
@@ -271,12 +271,12 @@ static bool place_sets(const struct builder *builder, const struct index *index,
         if (!nodes)
             return false;
         for (size_t i = 0; i < labels->count; i++) {
-            size_t at = find(index, labels->values[i]);
+            size_t at = builder_find(index, labels->values[i]);
             if (at != SIZE_MAX && index->numbers[at] != SIZE_MAX)
                 nodes[count++] = index->numbers[at];
         }
         /* ascending and once each, in place */
-        qsort(nodes, count, sizeof *nodes, compare_numbers);
+        qsort(nodes, count, sizeof *nodes, compare_sizes);
         for (size_t i = 0; i < count; i++)
             if (i == 0 || nodes[i] != nodes[i - 1])
                 nodes[set->count++] = nodes[i];
@@ -311,13 +311,13 @@ enum percuss_status builder_finish(const struct builder *builder, const char *fi
     if (status == PERCUSS_OK)
         status = check_elements(builder, file, fault);
     if (status == PERCUSS_OK)
-        status = take_memory(builder, file, mesh, fault);
+        status = builder_allocate_mesh(builder, file, mesh, fault);
     if (status == PERCUSS_OK)
         status = place_elements(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK)
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
-        status = out_of_memory(file, fault);
+        status = builder_out_of_memory(file, fault);
     /* what was made of a mesh goes with the error */
     free(index.labels);
     free(index.numbers);

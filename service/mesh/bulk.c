@@ -30,8 +30,8 @@ static double smallest_at_nodes(enum element_type type, double (*points)[3])
 }
 
 /* Adds one element's volume, first and second moments of mass about the origin. */
-static double add_element(const struct element_rule *rule, double (*points)[3], double density,
-                          struct bulk *bulk, double *smallest)
+static double bulk_add_element(const struct element_rule *rule, double (*points)[3], double density,
+                               struct bulk *bulk, double *smallest)
 {
     double volume = 0.0;
     for (size_t p = 0; p < rule->point_count; p++) {
@@ -61,7 +61,7 @@ double bulk_element_det(const struct solid_mesh *mesh, size_t element, double *v
     element_rule_make(type, &rule);
     element_points(mesh, element, points);
     double smallest = smallest_at_nodes(type, points);
-    *volume = add_element(&rule, points, 0.0, &none, &smallest);
+    *volume = bulk_add_element(&rule, points, 0.0, &none, &smallest);
     return smallest * natural_volume(type) / fabs(*volume);
 }
 
@@ -80,7 +80,7 @@ void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
             element_points(mesh, e, points);
             double smallest = smallest_at_nodes(types[t], points);
             double density = mesh->part[mesh->parts[e]].material.density;
-            double volume = add_element(&rule, points, density, bulk, &smallest);
+            double volume = bulk_add_element(&rule, points, density, bulk, &smallest);
             smallest *= natural_volume(types[t]) / fabs(volume);
             if (smallest < bulk->smallest_det) {
                 bulk->smallest_det = smallest;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static char *trim(char *text)
+static char *card_trim(char *text)
 {
     while (isspace((unsigned char)*text))
         text++;
@@ -24,7 +24,7 @@ bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status
     size_t filled = 0;
     *status = PERCUSS_OK;
     while (scan_line(scan, line + filled, CARD_LINE_SIZE - filled)) {
-        char *text = trim(line + filled);
+        char *text = card_trim(line + filled);
         memmove(line + filled, text, strlen(text) + 1);
         if (line[filled] == '\0' || strncmp(line + filled, "**", 2) == 0) {
             line[filled] = '\0';
@@ -60,8 +60,9 @@ void card_parse(char *line, struct card *card)
         if (equals)
             *equals = '\0';
         int i = card->parameter_count++;
-        copy_capitals(card->parameters[i].key, trim(field));
-        snprintf(card->parameters[i].value, CARD_TEXT_SIZE, "%s", equals ? trim(equals + 1) : "");
+        copy_capitals(card->parameters[i].key, card_trim(field));
+        snprintf(card->parameters[i].value, CARD_TEXT_SIZE, "%s",
+                 equals ? card_trim(equals + 1) : "");
     }
 }
 
@@ -81,7 +82,7 @@ char *card_field(char **cursor)
     if (comma)
         *comma = '\0';
     *cursor = comma ? comma + 1 : NULL;
-    field = trim(field);
+    field = card_trim(field);
     /* a comma at the end of a line begins no field */
     return *field == '\0' && !*cursor ? NULL : field;
 }

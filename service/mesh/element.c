@@ -105,7 +105,7 @@ void element_shapes(enum element_type type, const double at[3], double *shape,
         hex27_shapes(at, shape, gradient);
 }
 
-static void add_point(struct element_rule *rule, double x, double y, double z, double weight)
+static void rule_add_point(struct element_rule *rule, double x, double y, double z, double weight)
 {
     size_t p = rule->point_count++;
     rule->at[p][0] = x;
@@ -122,18 +122,18 @@ static void tet_points(struct element_rule *rule)
     static const double edge = 0.0455037041256496494918, edge_weight = 0.0070910034628469110730;
     for (int g = 0; g < 2; g++) {
         double a = near_corners[g], b = 1.0 - 3.0 * a, weight = corner_weights[g];
-        add_point(rule, a, a, a, weight);
-        add_point(rule, b, a, a, weight);
-        add_point(rule, a, b, a, weight);
-        add_point(rule, a, a, b, weight);
+        rule_add_point(rule, a, a, a, weight);
+        rule_add_point(rule, b, a, a, weight);
+        rule_add_point(rule, a, b, a, weight);
+        rule_add_point(rule, a, a, b, weight);
     }
     double a = edge, b = 0.5 - edge;
-    add_point(rule, b, a, a, edge_weight);
-    add_point(rule, a, b, a, edge_weight);
-    add_point(rule, a, a, b, edge_weight);
-    add_point(rule, a, b, b, edge_weight);
-    add_point(rule, b, a, b, edge_weight);
-    add_point(rule, b, b, a, edge_weight);
+    rule_add_point(rule, b, a, a, edge_weight);
+    rule_add_point(rule, a, b, a, edge_weight);
+    rule_add_point(rule, a, a, b, edge_weight);
+    rule_add_point(rule, a, b, b, edge_weight);
+    rule_add_point(rule, b, a, b, edge_weight);
+    rule_add_point(rule, b, b, a, edge_weight);
 }
 
 static void hex_points(struct element_rule *rule)
@@ -143,7 +143,7 @@ static void hex_points(struct element_rule *rule)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++)
-                add_point(rule, at[i], at[j], at[k], weight[i] * weight[j] * weight[k]);
+                rule_add_point(rule, at[i], at[j], at[k], weight[i] * weight[j] * weight[k]);
 }
 
 void element_rule_make(enum element_type type, struct element_rule *rule)

@@ -10,7 +10,7 @@
 
 /* Room for one more element of `size` bytes after `count`, twice as much each time. False: out of
  * memory. */
-static inline bool grow(void **array, size_t count, size_t *room, size_t size)
+static inline bool grow_array(void **array, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
         return true;
@@ -23,6 +23,6 @@ static inline bool grow(void **array, size_t count, size_t *room, size_t size)
     return true;
 }
 
-#define GROW(array, count, room) grow((void **)&(array), count, &(room), sizeof *(array))
+#define GROW(array, count, room) grow_array((void **)&(array), count, &(room), sizeof *(array))
 
 #endif

@@ -8,9 +8,14 @@
 
 #include "mesh/solid_mesh.h"
 
+enum { INP_MOST_DEPTH = 8, INP_PATH_SIZE = 1024 };
+
 /* Element sets with a *SOLID SECTION are the parts, else the ELSETs of *ELEMENT; *NSET, *SURFACE
  * and sets of shells are sets of nodes. */
 enum percuss_status inp_read(const char *path, double unit, struct solid_mesh *mesh,
                              struct fault *fault);
+
+/* The path of a file that another one names by *INCLUDE. */
+void inp_beside(const char *file, const char *name, char path[INP_PATH_SIZE]);
 
 #endif

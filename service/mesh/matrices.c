@@ -9,6 +9,127 @@
 #include "mesh/element.h"
 #include "model/vector.h"
 
+/* ---- symmetric sparse matrices ---- */
+
+static bool sparse_reserve(struct sparse *matrix, size_t n, size_t entries)
+{
+    *matrix = (struct sparse){.n = n, .start = calloc(n + 1, sizeof *matrix->start)};
+    matrix->column = malloc((entries + 1) * sizeof *matrix->column);
+    matrix->value = calloc(entries + 1, sizeof *matrix->value);
+    return matrix->start && matrix->column && matrix->value;
+}
+
+static int compare_sparse_entries(const void *left, const void *right)
+{
+    const struct sparse_entry *a = left, *b = right;
+    if (a->row != b->row)
+        return a->row < b->row ? -1 : 1;
+    return a->column < b->column ? -1 : a->column > b->column;
+}
+
+/* The entries that count, turned to the upper triangle, sorted; returns how many. */
+static size_t upper_entries(size_t count, const struct sparse_entry *entries, bool both,
+                            struct sparse_entry *upper)
+{
+    size_t kept = 0;
+    for (size_t e = 0; e < count; e++) {
+        struct sparse_entry entry = entries[e];
+        if (entry.row > entry.column) {
+            if (both)
+                continue;
+            entry.row = entries[e].column;
+            entry.column = entries[e].row;
+        }
+        upper[kept++] = entry;
+    }
+    qsort(upper, kept, sizeof *upper, compare_sparse_entries);
+    return kept;
+}
+
+bool sparse_from_entries(struct sparse *matrix, size_t n, size_t count,
+                         const struct sparse_entry *entries, bool both)
+{
+    struct sparse_entry *upper = malloc((count + 1) * sizeof *upper);
+    *matrix = (struct sparse){.n = n, .start = calloc(n + 1, sizeof *matrix->start)};
+    matrix->column = malloc((count + 1) * sizeof *matrix->column);
+    matrix->value = malloc((count + 1) * sizeof *matrix->value);
+    bool fine = upper && matrix->start && matrix->column && matrix->value;
+    size_t filled = 0, kept = fine ? upper_entries(count, entries, both, upper) : 0;
+    for (size_t e = 0; e < kept; e++) {
+        /* the same place again adds up */
+        if (e > 0 && compare_sparse_entries(&upper[e - 1], &upper[e]) == 0) {
+            matrix->value[filled - 1] += upper[e].value;
+            continue;
+        }
+        matrix->column[filled] = upper[e].column;
+        matrix->value[filled++] = upper[e].value;
+        matrix->start[upper[e].row + 1]++;
+    }
+    for (size_t i = 0; fine && i < n; i++)
+        matrix->start[i + 1] += matrix->start[i];
+    free(upper);
+    if (!fine)
+        sparse_free(matrix);
+    return fine;
+}
+
+void sparse_multiply(const struct sparse *matrix, size_t count, const double *x, double *y)
+{
+    size_t n = matrix->n;
+    memset(y, 0, count * n * sizeof *y);
+    for (size_t c = 0; c < count; c++, x += n, y += n)
+        for (size_t i = 0; i < n; i++) {
+            double sum = 0.0, here = x[i];
+            size_t p = matrix->start[i], end = matrix->start[i + 1];
+            /* the diagonal once, anything else for both triangles */
+            if (p < end && matrix->column[p] == i)
+                sum = matrix->value[p++] * here;
+            for (; p < end; p++) {
+                size_t j = matrix->column[p];
+                sum += matrix->value[p] * x[j];
+                y[j] += matrix->value[p] * here;
+            }
+            y[i] += sum;
+        }
+}
+
+double sparse_product(const struct sparse *matrix, const double *x, const double *y)
+{
+    double total = 0.0;
+    for (size_t i = 0; i < matrix->n; i++)
+        for (size_t p = matrix->start[i]; p < matrix->start[i + 1]; p++) {
+            size_t j = matrix->column[p];
+            total += matrix->value[p] * (i == j ? x[i] * y[i] : x[i] * y[j] + x[j] * y[i]);
+        }
+    return total;
+}
+
+void sparse_hold(struct sparse *matrix, const bool *held, bool keep_diagonal)
+{
+    size_t filled = 0, p = 0;
+    for (size_t i = 0; i < matrix->n; i++) {
+        size_t end = matrix->start[i + 1];
+        for (matrix->start[i] = filled; p < end; p++) {
+            size_t j = matrix->column[p];
+            if (i == j ? held[i] && !keep_diagonal : held[i] || held[j])
+                continue;
+            matrix->column[filled] = (uint32_t)j;
+            matrix->value[filled++] = matrix->value[p];
+        }
+    }
+    matrix->start[matrix->n] = filled;
+}
+
+void sparse_free(struct sparse *matrix)
+{
+    free(matrix->start);
+    free(matrix->column);
+    free(matrix->value);
+    *matrix = (struct sparse){0};
+}
+
+/* ---- stiffness and mass ---- */
+
 /* Which nodes an element joins: of each node, those of its elements from itself on, ascending. */
 struct joints {
     size_t *start; /* [node_count + 1] */
@@ -39,15 +160,16 @@ static bool list_elements(const struct solid_mesh *mesh, size_t *start, size_t *
     return true;
 }
 
-static int by_number(const void *left, const void *right)
+static int compare_nodes(const void *left, const void *right)
 {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return a < b ? -1 : a > b;
 }
 
 /* The neighbours of one node, gathered in `found`, each once; `mark` says who is in. */
-static size_t gather(const struct solid_mesh *mesh, uint32_t node, const size_t *elements,
-                     size_t count, uint32_t *mark, uint32_t *found)
+static size_t gather_neighbours(const struct solid_mesh *mesh, uint32_t node,
+                                const size_t *elements, size_t count, uint32_t *mark,
+                                uint32_t *found)
 {
     size_t total = 0;
     for (size_t i = 0; i < count; i++)
@@ -58,7 +180,7 @@ static size_t gather(const struct solid_mesh *mesh, uint32_t node, const size_t 
             mark[other] = node + 1;
             found[total++] = (uint32_t)other;
         }
-    qsort(found, total, sizeof *found, by_number);
+    qsort(found, total, sizeof *found, compare_nodes);
     return total;
 }
 
@@ -73,8 +195,8 @@ static bool joints_make(const struct solid_mesh *mesh, struct joints *joints)
     bool fine = of_node && mark && found && joints->start && joints->node &&
                 list_elements(mesh, of_node, &element);
     for (size_t i = 0; fine && i < nodes; i++) {
-        size_t count = gather(mesh, (uint32_t)i, element + of_node[i], of_node[i + 1] - of_node[i],
-                              mark, found);
+        size_t count = gather_neighbours(mesh, (uint32_t)i, element + of_node[i],
+                                         of_node[i + 1] - of_node[i], mark, found);
         /* more room where elements have many neighbours */
         if (filled + count > room) {
             room = 2 * (filled + count);
@@ -108,17 +230,9 @@ static size_t place_of(const struct joints *joints, size_t node, size_t other)
     return low - joints->start[node];
 }
 
-static bool sparse_reserve(struct sparse *matrix, size_t n, size_t entries)
-{
-    *matrix = (struct sparse){.n = n, .start = calloc(n + 1, sizeof *matrix->start)};
-    matrix->column = malloc((entries + 1) * sizeof *matrix->column);
-    matrix->value = calloc(entries + 1, sizeof *matrix->value);
-    return matrix->start && matrix->column && matrix->value;
-}
-
 /* Rows of three: all directions of a neighbour for the stiffness, its own for the mass, which joins
  * equal directions alone. */
-static bool lay_out(const struct joints *joints, size_t nodes, struct matrices *matrices)
+static bool lay_out_rows(const struct joints *joints, size_t nodes, struct matrices *matrices)
 {
     size_t pairs = joints->start[nodes];
     if (!sparse_reserve(&matrices->stiffness, 3 * nodes, 9 * pairs - 3 * nodes) ||
@@ -147,8 +261,8 @@ struct element_matrices {
 
 /* K_ab = lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I with gradients g of shape functions N,
  * M_ab = rho N_a N_b: both integrated over the element. */
-static void integrate(const struct element_rule *rule, double (*points)[3],
-                      const struct material *material, struct element_matrices *result)
+static void integrate_element(const struct element_rule *rule, double (*points)[3],
+                              const struct material *material, struct element_matrices *result)
 {
     double nu = material->poisson, mu = material_shear_modulus(material);
     double lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
@@ -185,8 +299,8 @@ static void add_pair(const struct joints *joints, const size_t pair[2], const do
     }
 }
 
-static void add_element(const struct joints *joints, const size_t *nodes, size_t count,
-                        const struct element_matrices *element, struct matrices *matrices)
+static void add_element_matrices(const struct joints *joints, const size_t *nodes, size_t count,
+                                 const struct element_matrices *element, struct matrices *matrices)
 {
     for (size_t a = 0; a < count; a++)
         for (size_t b = a; b < count; b++) {
@@ -211,8 +325,9 @@ static void add_type(const struct solid_mesh *mesh, enum element_type type,
             continue;
         double points[ELEMENT_MOST_NODES][3];
         element_points(mesh, e, points);
-        integrate(&rule, points, &mesh->part[mesh->parts[e]].material, element);
-        add_element(joints, mesh->nodes + mesh->first[e], rule.node_count, element, matrices);
+        integrate_element(&rule, points, &mesh->part[mesh->parts[e]].material, element);
+        add_element_matrices(joints, mesh->nodes + mesh->first[e], rule.node_count, element,
+                             matrices);
     }
 }
 
@@ -248,7 +363,8 @@ enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices
         return status;
     struct joints joints = {0};
     struct element_matrices *element = malloc(sizeof *element);
-    if (element && joints_make(mesh, &joints) && lay_out(&joints, mesh->node_count, matrices)) {
+    if (element && joints_make(mesh, &joints) &&
+        lay_out_rows(&joints, mesh->node_count, matrices)) {
         add_type(mesh, ELEMENT_TET10, &joints, element, matrices);
         add_type(mesh, ELEMENT_HEX20, &joints, element, matrices);
         add_type(mesh, ELEMENT_HEX27, &joints, element, matrices);

@@ -36,7 +36,7 @@ struct entries {
     bool both; /* triangles */
 };
 
-static int compare(const void *left, const void *right)
+static int matrices_compare_labels(const void *left, const void *right)
 {
     const struct label *a = left, *b = right;
     return a->label < b->label ? -1 : a->label > b->label;
@@ -48,11 +48,11 @@ static struct label *sort_labels(const struct solid_mesh *mesh)
     for (size_t i = 0; labels && i < mesh->node_count; i++)
         labels[i] = (struct label){mesh->labels[i], i};
     if (labels)
-        qsort(labels, mesh->node_count, sizeof *labels, compare);
+        qsort(labels, mesh->node_count, sizeof *labels, matrices_compare_labels);
     return labels;
 }
 
-static enum percuss_status out_of_memory(const char *file, struct fault *fault)
+static enum percuss_status matrices_out_of_memory(const char *file, struct fault *fault)
 {
     return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
 }
@@ -78,12 +78,13 @@ static enum percuss_status read_freedom(const struct scan *scan, const char *lin
     if (direction < 1 || direction > 3)
         return scan_refuse(scan, "%.40s: direction must be 1, 2 or 3", line);
     struct label key = {node, 0};
-    const struct label *found = bsearch(&key, labels, mesh->node_count, sizeof *labels, compare);
+    const struct label *found =
+        bsearch(&key, labels, mesh->node_count, sizeof *labels, matrices_compare_labels);
     if (!found)
         return scan_refuse(scan, "%.40s: must be a node of the mesh", line);
     return add_freedom(freedoms, found->node, direction - 1)
                ? PERCUSS_OK
-               : out_of_memory(scan->file, scan->fault);
+               : matrices_out_of_memory(scan->file, scan->fault);
 }
 
 static enum percuss_status read_freedoms(const char *path, const struct solid_mesh *mesh,
@@ -96,7 +97,7 @@ static enum percuss_status read_freedoms(const char *path, const struct solid_me
         for (size_t i = 0; i < mesh->node_count; i++)
             for (size_t k = 0; k < 3; k++)
                 if (!add_freedom(freedoms, labels[i].node, k))
-                    return out_of_memory("degrees of freedom", fault);
+                    return matrices_out_of_memory("degrees of freedom", fault);
         return PERCUSS_OK;
     }
     enum percuss_status status = scan_open(path, &scan, fault);
@@ -153,7 +154,7 @@ static enum percuss_status read_entries(struct scan *scan, const struct freedoms
             return scan_refuse(scan, "row %zu, column %zu: %g: must be a finite number", row,
                                column, value);
         if (!GROW(entries->list, entries->count, entries->room))
-            return out_of_memory(scan->file, scan->fault);
+            return matrices_out_of_memory(scan->file, scan->fault);
         entries->list[entries->count++] = (struct sparse_entry){
             freedoms->of_row[row - 1], freedoms->of_row[column - 1], factor * value};
     }
@@ -161,7 +162,7 @@ static enum percuss_status read_entries(struct scan *scan, const struct freedoms
 }
 
 /* a number of either sign from a row's, the same each time */
-static double spread(uint32_t row, double step)
+static double pseudo_random(uint32_t row, double step)
 {
     double x = row * step;
     return x - floor(x) - 0.5;
@@ -173,8 +174,10 @@ static enum percuss_status check_symmetry(const struct scan *scan, const struct 
     double difference = 0.0, sum = 0.0;
     for (size_t i = 0; i < entries->count; i++) {
         const struct sparse_entry *entry = &entries->list[i];
-        double there = spread(entry->row, 0.6180339887) * spread(entry->column, 0.7548776662);
-        double back = spread(entry->column, 0.6180339887) * spread(entry->row, 0.7548776662);
+        double there =
+            pseudo_random(entry->row, 0.6180339887) * pseudo_random(entry->column, 0.7548776662);
+        double back =
+            pseudo_random(entry->column, 0.6180339887) * pseudo_random(entry->row, 0.7548776662);
         difference += entry->value * (there - back);
         sum += fabs(entry->value * there);
     }
@@ -217,10 +220,10 @@ static enum percuss_status read_matrix(const char *path, const struct freedoms *
     if (status == PERCUSS_OK && entries.both)
         status = check_symmetry(&scan, &entries);
     if (status == PERCUSS_OK && held && !add_held(mesh, held, &entries))
-        status = out_of_memory(path, fault);
+        status = matrices_out_of_memory(path, fault);
     if (status == PERCUSS_OK && !sparse_from_entries(matrix, 3 * mesh->node_count, entries.count,
                                                      entries.list, entries.both))
-        status = out_of_memory(path, fault);
+        status = matrices_out_of_memory(path, fault);
     free(entries.list);
     scan_close(&scan);
     return status;
@@ -234,7 +237,7 @@ static enum percuss_status find_held(const struct freedoms *freedoms, const char
     size_t n = 3 * mesh->node_count;
     bool *held = malloc(n * sizeof *held);
     if (!held)
-        return out_of_memory(file, fault);
+        return matrices_out_of_memory(file, fault);
     memset(held, true, n * sizeof *held);
     matrices->held = held;
     for (size_t i = 0; i < freedoms->count; i++) {
@@ -258,7 +261,7 @@ static enum percuss_status check_mass(const struct matrices *matrices, const cha
     size_t n = matrices->mass.n;
     double mass[3] = {0.0, 0.0, 0.0}, *way = calloc(n + 1, sizeof *way);
     if (!way)
-        return out_of_memory(file, fault);
+        return matrices_out_of_memory(file, fault);
     for (size_t k = 0; k < 3; k++) {
         for (size_t i = 0; i < n; i++)
             way[i] = i % 3 == k;
@@ -309,7 +312,7 @@ enum percuss_status matrices_read(const struct matrices_files *files, const stru
     struct label *labels = sort_labels(mesh);
     enum percuss_status status =
         labels ? read_freedoms(files->freedoms, mesh, labels, &freedoms, fault)
-               : out_of_memory(map, fault);
+               : matrices_out_of_memory(map, fault);
     /* freedoms without a row are held */
     if (status == PERCUSS_OK)
         status = find_held(&freedoms, map, mesh, matrices, fault);

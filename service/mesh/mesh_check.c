@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/boundary.h"
 #include "mesh/bulk.h"
 #include "mesh/joined.h"
 #include "model/vector.h"
@@ -88,7 +87,7 @@ static enum percuss_status check_shapes(const struct solid_mesh *mesh,
     return PERCUSS_OK;
 }
 
-static int compare(const void *left, const void *right)
+static int compare_along(const void *left, const void *right)
 {
     const struct sorted_node *a = left, *b = right;
     if (a->along != b->along)
@@ -97,8 +96,8 @@ static int compare(const void *left, const void *right)
 }
 
 /* pairs of nodes in one place: the body is cut there */
-static enum percuss_status check_places(const struct solid_mesh *mesh, double size,
-                                        struct fault *fault)
+static enum percuss_status check_same_places(const struct solid_mesh *mesh, double size,
+                                             struct fault *fault)
 {
     /* along one direction, nodes in one place are neighbours */
     struct sorted_node *nodes = malloc(mesh->node_count * sizeof *nodes);
@@ -107,7 +106,7 @@ static enum percuss_status check_places(const struct solid_mesh *mesh, double si
         return fault_set(fault, PERCUSS_INTERNAL, "%zu nodes: out of memory", mesh->node_count);
     for (size_t i = 0; i < mesh->node_count; i++)
         nodes[i] = (struct sorted_node){dot3(SORTING, mesh->points[i]), i};
-    qsort(nodes, mesh->node_count, sizeof *nodes, compare);
+    qsort(nodes, mesh->node_count, sizeof *nodes, compare_along);
     /* each with those that follow closely */
     double near = SAME_PLACE * size;
     for (size_t i = 0; i < mesh->node_count; i++)
@@ -223,7 +222,7 @@ static void check_extent(const struct solid_mesh *mesh, struct mesh_findings *fi
 /* the largest angle between normals at two corners of a face, as a cosine */
 static double turn_cosine(const struct surface_face *face, const struct surface_point *points)
 {
-    int corners = face->count == FACE_TRIANGLE6 ? 3 : 4;
+    int corners = surface_face_corners(face);
     double least = 1.0;
     for (int i = 0; i < corners; i++)
         for (int j = 0; j < i; j++)
@@ -259,7 +258,7 @@ enum percuss_status mesh_check(const struct solid_mesh *mesh, const struct surfa
         return fault_set(fault, PERCUSS_BAD_REQUEST, "elements: 0: a mesh must have some");
     enum percuss_status status = check_shapes(mesh, findings, fault);
     if (status == PERCUSS_OK)
-        status = check_places(mesh, surface->size, fault);
+        status = check_same_places(mesh, surface->size, fault);
     if (status == PERCUSS_OK)
         status = check_pieces(mesh, fault);
     if (status != PERCUSS_OK)

@@ -6,6 +6,7 @@
 #ifndef PERCUSS_MESH_MESH_READ_H
 #define PERCUSS_MESH_MESH_READ_H
 
+#include "base/sha256.h"
 #include "mesh/solid_mesh.h"
 
 struct mesh_options {
@@ -24,5 +25,9 @@ double mesh_read_unit(const char *name);
  * solid_mesh_free. */
 enum percuss_status mesh_read(const char *path, const struct mesh_options *options,
                               struct solid_mesh *mesh, struct fault *fault);
+
+/* Adds a file's bytes, and those of the files that a deck (.inp) takes in by *INCLUDE as far as it
+ * is read. PERCUSS_BAD_REQUEST: one of them cannot be read. */
+enum percuss_status mesh_digest(const char *path, struct sha256 *hash, struct fault *fault);
 
 #endif

@@ -10,8 +10,75 @@
 
 #include "mesh/builder.h"
 #include "mesh/element.h"
-#include "mesh/msh_groups.h"
+#include "mesh/grow.h"
 #include "mesh/scan.h"
+
+/* ---- physical groups, and the points, curves, surfaces and volumes in them ---- */
+
+struct msh_group {
+    int dimension, tag;
+    char name[MESH_NAME_SIZE];
+};
+
+/* An entity of the geometry in a physical group. */
+struct msh_member {
+    int dimension, entity, tag;
+};
+
+/* Zeroed to begin with; owns its arrays. */
+struct msh_groups {
+    size_t group_count, group_room, member_count, member_room;
+    struct msh_group *groups;
+    struct msh_member *members;
+};
+
+/* False: out of memory. */
+static bool msh_groups_add(struct msh_groups *groups, const struct msh_group *group)
+{
+    if (!GROW(groups->groups, groups->group_count, groups->group_room))
+        return false;
+    groups->groups[groups->group_count++] = *group;
+    return true;
+}
+
+static bool msh_groups_join(struct msh_groups *groups, struct msh_member member)
+{
+    if (!GROW(groups->members, groups->member_count, groups->member_room))
+        return false;
+    groups->members[groups->member_count++] = member;
+    return true;
+}
+
+/* The tags of the groups of an entity, at most `room`; returns their number. */
+static size_t msh_groups_of(const struct msh_groups *groups, int dimension, int entity, int *tags,
+                            size_t room)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < groups->member_count && count < room; i++)
+        if (groups->members[i].dimension == dimension && groups->members[i].entity == entity)
+            tags[count++] = groups->members[i].tag;
+    return count;
+}
+
+/* A group's name; "surface 7" where the file gives it none. */
+static void msh_groups_name(const struct msh_groups *groups, int dimension, int tag,
+                            char name[MESH_NAME_SIZE])
+{
+    static const char *const KINDS[] = {"point", "curve", "surface", "volume"};
+    snprintf(name, MESH_NAME_SIZE, "%s %d", KINDS[dimension], tag);
+    for (size_t i = 0; i < groups->group_count; i++)
+        if (groups->groups[i].dimension == dimension && groups->groups[i].tag == tag)
+            memcpy(name, groups->groups[i].name, MESH_NAME_SIZE);
+}
+
+static void msh_groups_free(struct msh_groups *groups)
+{
+    free(groups->groups);
+    free(groups->members);
+    memset(groups, 0, sizeof *groups);
+}
+
+/* ---- the file ---- */
 
 enum { LINE_SIZE = 256, MOST_ENTITY_TAGS = 4 };
 
@@ -48,12 +115,12 @@ struct msh {
     struct msh_groups groups;
 };
 
-static enum percuss_status out_of_memory(const struct msh *msh)
+static enum percuss_status msh_out_of_memory(const struct msh *msh)
 {
     return fault_set(msh->scan.fault, PERCUSS_INTERNAL, "%s: out of memory", msh->scan.file);
 }
 
-static bool read_format(struct scan *scan)
+static bool msh_read_format(struct scan *scan)
 {
     double version = 0.0;
     int binary = 0, one = 0;
@@ -102,7 +169,7 @@ static enum percuss_status read_names(struct msh *msh)
         if (sscanf(line, "%d %d \"%63[^\"]", &group.dimension, &group.tag, group.name) != 3)
             return scan_refuse(scan, "physical name: must be: dimension tag \"name\"");
         if (!msh_groups_add(&msh->groups, &group))
-            return out_of_memory(msh);
+            return msh_out_of_memory(msh);
     }
     scan->binary = binary;
     return PERCUSS_OK;
@@ -128,7 +195,7 @@ static enum percuss_status read_entity(struct msh *msh, int dimension)
         if (!scan_integer(scan, "physical group", &tag))
             return PERCUSS_BAD_REQUEST;
         if (!msh_groups_join(&msh->groups, (struct msh_member){dimension, entity, tag}))
-            return out_of_memory(msh);
+            return msh_out_of_memory(msh);
     }
     /* what bounds it is not needed; a point has none */
     if (dimension == 0)
@@ -175,7 +242,7 @@ static enum percuss_status read_node_block(struct msh *msh)
         if (!scan_size(scan, "number of a node", &label))
             return PERCUSS_BAD_REQUEST;
         if (!builder_add_node(builder, label, (double[3]){0.0, 0.0, 0.0}))
-            return out_of_memory(msh);
+            return msh_out_of_memory(msh);
     }
     /* then all points, with the parameters on a curve or surface, which are not needed */
     for (size_t i = 0; i < count; i++) {
@@ -224,13 +291,13 @@ static enum percuss_status find_sets(struct msh *msh, int dimension, int entity,
         msh_groups_name(&msh->groups, dimension, tags[i], name);
         sets[i] = builder_set(&msh->builder, name);
         if (sets[i] == SIZE_MAX)
-            return out_of_memory(msh);
+            return msh_out_of_memory(msh);
     }
     return PERCUSS_OK;
 }
 
 /* only solids of second order are taken */
-static enum percuss_status check_type(const struct scan *scan, int type)
+static enum percuss_status msh_check_type(const struct scan *scan, int type)
 {
     if (type <= 0 || (size_t)type >= sizeof TYPES / sizeof *TYPES)
         return scan_refuse(
@@ -254,7 +321,7 @@ static enum percuss_status read_elements_of(struct msh *msh, int type, int entit
     bool solid = TYPES[type].dimension == 3;
     /* solids make parts; faces, edges and points make sets of nodes */
     if (solid && (part = find_part(msh, entity)) == SIZE_MAX)
-        return out_of_memory(msh);
+        return msh_out_of_memory(msh);
     if (!solid && find_sets(msh, TYPES[type].dimension, entity, sets, &set_count) != PERCUSS_OK)
         return PERCUSS_INTERNAL;
     /* each in the order of Gmsh, which the builder knows by type */
@@ -269,7 +336,7 @@ static enum percuss_status read_elements_of(struct msh *msh, int type, int entit
                                                      : ELEMENT_HEX27;
         if (solid ? !builder_add_element(&msh->builder, kind, label, part, nodes)
                   : !add_to_sets(msh, sets, set_count, nodes, node_count))
-            return out_of_memory(msh);
+            return msh_out_of_memory(msh);
     }
     return PERCUSS_OK;
 }
@@ -283,7 +350,7 @@ static enum percuss_status read_element_block(struct msh *msh)
         !scan_integer(scan, "element type", &type) ||
         !scan_count(scan, "elements of a block", &count))
         return PERCUSS_BAD_REQUEST;
-    enum percuss_status status = check_type(scan, type);
+    enum percuss_status status = msh_check_type(scan, type);
     return status == PERCUSS_OK ? read_elements_of(msh, type, entity, count) : status;
 }
 
@@ -319,7 +386,7 @@ static enum percuss_status end_section(struct scan *scan, const char *name)
 static enum percuss_status read_section(struct msh *msh, const char *name)
 {
     if (strcmp(name, "$MeshFormat") == 0)
-        return read_format(&msh->scan) ? PERCUSS_OK : PERCUSS_BAD_REQUEST;
+        return msh_read_format(&msh->scan) ? PERCUSS_OK : PERCUSS_BAD_REQUEST;
     if (strcmp(name, "$PhysicalNames") == 0)
         return read_names(msh);
     if (strcmp(name, "$Entities") == 0)
@@ -331,7 +398,7 @@ static enum percuss_status read_section(struct msh *msh, const char *name)
     return PERCUSS_OK;
 }
 
-static void trim(char *line)
+static void msh_trim(char *line)
 {
     size_t length = strlen(line);
     while (length > 0 && (line[length - 1] == ' ' || line[length - 1] == '\t'))
@@ -344,7 +411,7 @@ static enum percuss_status read_sections(struct msh *msh)
     bool begun = false;
     enum percuss_status status = PERCUSS_OK;
     while (status == PERCUSS_OK && scan_line(&msh->scan, name, sizeof name)) {
-        trim(name);
+        msh_trim(name);
         if (name[0] == '\0')
             continue;
         if (name[0] != '$' || (!begun && strcmp(name, "$MeshFormat") != 0))

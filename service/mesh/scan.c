@@ -135,7 +135,7 @@ static bool refuse_word(const struct scan *scan, const char *what, const char *a
 }
 
 /* moves beyond a number that strto... has read up to `end`; white space must follow */
-static bool pass(struct scan *scan, const char *end)
+static bool scan_pass(struct scan *scan, const char *end)
 {
     size_t at = (size_t)(end - scan->text);
     if (at == scan->at || (at < scan->size && !isspace((unsigned char)*end)))
@@ -152,7 +152,7 @@ bool scan_integer(struct scan *scan, const char *what, int *value)
     char *end;
     errno = 0;
     long number = strtol(scan->text + scan->at, &end, 10);
-    if (errno || number < INT_MIN || number > INT_MAX || !pass(scan, end))
+    if (errno || number < INT_MIN || number > INT_MAX || !scan_pass(scan, end))
         return refuse_word(scan, what, "a whole number");
     *value = (int)number;
     return true;
@@ -171,7 +171,7 @@ bool scan_size(struct scan *scan, const char *what, size_t *value)
     char *end;
     errno = 0;
     unsigned long long number = strtoull(scan->text + scan->at, &end, 10);
-    if (errno || !isdigit((unsigned char)scan->text[scan->at]) || !pass(scan, end))
+    if (errno || !isdigit((unsigned char)scan->text[scan->at]) || !scan_pass(scan, end))
         return refuse_word(scan, what, "a whole number >= 0");
     *value = number;
     return true;
@@ -184,7 +184,7 @@ bool scan_real(struct scan *scan, const char *what, double *value)
     skip_space(scan);
     char *end;
     *value = strtod(scan->text + scan->at, &end);
-    return pass(scan, end) || refuse_word(scan, what, "a number");
+    return scan_pass(scan, end) || refuse_word(scan, what, "a number");
 }
 
 bool scan_count(struct scan *scan, const char *what, size_t *value)

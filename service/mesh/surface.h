@@ -7,8 +7,25 @@
 
 #include <stddef.h>
 
-#include "mesh/boundary.h"
+#include "mesh/solid_mesh.h"
 #include "model/facet.h"
+
+/* Three corners, then the mid nodes of edges 01 12 20; or four corners, mid nodes of 01 12 23 30,
+ * and the middle. Corners run anticlockwise seen from outside. */
+enum surface_face_type { FACE_TRIANGLE6 = 6, FACE_QUAD8 = 8, FACE_QUAD9 = 9 };
+enum { FACE_MOST_NODES = FACET_MOST_NODES };
+
+struct surface_face {
+    unsigned char count;           /* enum surface_face_type */
+    size_t nodes[FACE_MOST_NODES]; /* of the mesh */
+    size_t element, part;          /* the element and part below it */
+    size_t patch;                  /* faces of one patch meet smoothly */
+};
+
+static inline int surface_face_corners(const struct surface_face *face)
+{
+    return face->count == FACE_TRIANGLE6 ? 3 : 4;
+}
 
 /* What the surface is like at one node of one face: faces that meet in a sharp edge differ. */
 struct surface_point {
@@ -56,5 +73,9 @@ void surface_face_points(const struct solid_mesh *mesh, const struct surface_fac
                          double points[FACE_MOST_NODES][3]);
 
 void surface_free(struct surface *surface);
+
+/* Elements that hang together by whole faces, in `parent` [element_count] as of mesh/joined.h. */
+enum percuss_status boundary_join(const struct solid_mesh *mesh, size_t *parent,
+                                  struct fault *fault);
 
 #endif

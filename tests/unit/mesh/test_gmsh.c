@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Of mesh/gmsh.c: parts that Gmsh meshes, in each format that goes through it, held against their
- * volumes, numbers of sides, normals and curvatures in closed form. Skipped without Gmsh. */
+/* Of mesh/mesh_read.c: parts that Gmsh meshes, in each format that goes through it, held against
+ * their volumes, numbers of sides, normals and curvatures in closed form. Skipped without Gmsh. */
 #include "mesh/mesh_check.h"
 #include "model/vector.h"
 #include "unit/mesh/files.h"

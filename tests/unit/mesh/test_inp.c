@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Of mesh/inp.c, deck.c and card.c: one brick and one tetrahedron in the order of nodes of the
+/* Of mesh/inp.c and card.c: one brick and one tetrahedron in the order of nodes of the
  * manuals of Abaqus and CalculiX, sets, materials, and decks that are refused. */
 #include "unit/mesh/files.h"
 

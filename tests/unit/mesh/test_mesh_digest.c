@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* mesh/mesh_digest: what a mesh is read from, with what its deck includes. */
-#include "mesh/mesh_digest.h"
+/* mesh/mesh_read: the digest of a mesh's file and of those that its deck includes. */
+#include "mesh/mesh_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>
