@@ -18,7 +18,7 @@ static void complain_once(void *context, const char *problem)
     snprintf(context, sizeof(struct fault), "%s", problem);
 }
 
-/* Whether a copy is whole, by opening it as the store it is. */
+/* Opens a copy as a store and checks all its rows. */
 static enum percuss_status check_copy(const char *path, struct fault *fault)
 {
     struct fault problem = {""};
@@ -33,7 +33,7 @@ static enum percuss_status check_copy(const char *path, struct fault *fault)
     return status;
 }
 
-/* The path without links in its folder, which SQLite is told to refuse. */
+/* The path with the links in its folder resolved: SQLite opens the copy without following links. */
 static enum percuss_status resolve_folder(const char *path, char whole[ATOMIC_FILE_SIZE],
                                           struct fault *fault)
 {
@@ -62,7 +62,7 @@ enum percuss_status backup_write(struct specimen_store *store, const char *path,
     if (file < 0)
         return PERCUSS_BAD_REQUEST;
     close(file);
-    /* what an interrupted one has left beside it */
+    /* files that an interrupted copy has left beside it */
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
         snprintf(name, sizeof name, "%s%s", aside.aside, ends[i]);
         unlink(name);

@@ -7,9 +7,9 @@
 
 #include "store/specimens.h"
 
-/* Writes the store to that file: aside first, checked and on the disk, and then in its place.
- * Otherwise the former copy stays, and the fault says why: the file cannot be written, or the store
- * is damaged. */
+/* Writes the store to a temporary file, checks it, syncs it to the disk and renames it to `path`.
+ * Otherwise the former copy stays, and the fault has the reason: the file cannot be written, or the
+ * store is damaged. */
 enum percuss_status backup_write(struct specimen_store *store, const char *path,
                                  struct fault *fault);
 

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The columns of a dent are those of struct dent, in its order. The mark of a client is the highest
- * number among its replies that are no longer kept. A checksum is over all that a row says; that of
- * a specimen covers its dents. */
+/* Each dent has the members of struct dent as columns, in its order. The mark of a client is the
+ * highest number among its dropped replies. A checksum covers all other columns of its row; that of
+ * a specimen covers its dents, too. */
 static const char SCHEMA_NEW[] =
     "CREATE TABLE specimens (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,"
     " body TEXT NOT NULL, nature TEXT NOT NULL, impacts INTEGER NOT NULL,"
@@ -25,7 +25,7 @@ static const char SCHEMA_NEW[] =
     "CREATE TABLE marks (client BLOB PRIMARY KEY, sequence INTEGER NOT NULL,"
     " checksum BLOB) WITHOUT ROWID;";
 
-/* Checksums that these columns lack are put in before the upgrade is over. */
+/* The upgrade fills the new columns with checksums before it commits. */
 static const char *const SCHEMA_UPGRADES[] = {
     "ALTER TABLE replies ADD COLUMN checksum BLOB",
     "ALTER TABLE specimens ADD COLUMN checksum BLOB; ALTER TABLE marks ADD COLUMN checksum BLOB"};
@@ -64,8 +64,8 @@ static const char *const SCHEMA_STATEMENTS[STATEMENT_COUNT] = {
     [STATEMENT_COUNTS] = "SELECT (SELECT count(*) FROM specimens), (SELECT count(*) FROM replies)",
 };
 
-/* The write-ahead log is written back into the file from 256 pages on, and cut to 1 MiB: a volume
- * that it fills has no room to write it back to. */
+/* SQLite writes the write-ahead log back into the file from 256 pages on, and cuts it to 1 MiB: if
+ * the log filled the volume, there would be no room to write it back. */
 static const char BOUND_LOG[] = "PRAGMA wal_autocheckpoint = 256;"
                                 "PRAGMA journal_size_limit = 1048576";
 
@@ -91,7 +91,7 @@ static bool lacks_room(struct database *database)
                                    (reason == ENOSPC || reason == EDQUOT));
 }
 
-/* What SQLite says about a file that cannot be used. */
+/* Refuses a file with SQLite's last error. */
 static enum percuss_status database_refuse_file(struct database *database, struct fault *fault)
 {
     char problem[320];
@@ -112,7 +112,7 @@ static bool database_execute(struct database *database, const char *text)
     return sqlite3_exec(database->connection, text, NULL, NULL, NULL) == SQLITE_OK;
 }
 
-/* The whole number that a query gives; false: none. */
+/* The integer that a query returns; false: none. */
 static bool query_number(struct database *database, const char *text, int *number)
 {
     sqlite3_stmt *statement = NULL;
@@ -123,7 +123,7 @@ static bool query_number(struct database *database, const char *text, int *numbe
     return sqlite3_finalize(statement) == SQLITE_OK && good;
 }
 
-/* Tables and indices say the same, and no page is lost. */
+/* Whether tables and indices agree and no page is lost. False: the check cannot run. */
 static bool is_whole(struct database *database, bool *whole)
 {
     sqlite3_stmt *statement = NULL;
@@ -135,7 +135,7 @@ static bool is_whole(struct database *database, bool *whole)
     return sqlite3_finalize(statement) == SQLITE_OK && good;
 }
 
-/* Says in the file that it is ours, and of which version. */
+/* Writes our application id and the schema's version into the file. */
 static bool mark_version(struct database *database, int version)
 {
     char text[96];
@@ -155,7 +155,7 @@ static bool prepare_statements(struct database *database)
     return good;
 }
 
-/* Brings a file of ours from that version up to date. */
+/* Upgrades a file of ours from that version to the newest. */
 static enum percuss_status upgrade_schema(struct database *database, database_fill *fill,
                                           int version, struct fault *fault)
 {
@@ -177,7 +177,7 @@ static enum percuss_status check_schema(struct database *database, database_fill
 {
     int application, version, tables;
     bool whole;
-    /* whose file it is, of which version, and whether it is whole */
+    /* application id, version and integrity */
     if (!query_number(database, "PRAGMA application_id", &application) ||
         !query_number(database, "PRAGMA user_version", &version) ||
         !query_number(database, "SELECT count(*) FROM sqlite_master", &tables) ||
@@ -186,12 +186,12 @@ static enum percuss_status check_schema(struct database *database, database_fill
     if (!whole)
         return database_refuse(database, "is damaged: restore it from a copy or move it away",
                                fault);
-    /* ours, up to date or brought there */
+    /* ours: use it, or upgrade it */
     if (application == DATABASE_APPLICATION && version == SCHEMA_VERSION)
         return PERCUSS_OK;
     if (application == DATABASE_APPLICATION)
         return upgrade_schema(database, fill, version, fault);
-    /* another program's, or an empty one that becomes ours */
+    /* refuse another program's; make an empty one ours */
     if (application != 0 || tables != 0)
         return database_refuse(database, "is a database of another program", fault);
     return database_execute(database, SCHEMA_NEW) && mark_version(database, SCHEMA_VERSION)
@@ -199,7 +199,7 @@ static enum percuss_status check_schema(struct database *database, database_fill
                : database_refuse_file(database, fault);
 }
 
-/* The schema is looked at and made in one transaction. */
+/* One transaction checks and makes the schema. */
 static enum percuss_status set_up(struct database *database, database_fill *fill,
                                   struct fault *fault)
 {
@@ -207,7 +207,7 @@ static enum percuss_status set_up(struct database *database, database_fill *fill
                                     "PRAGMA foreign_keys = ON; BEGIN EXCLUSIVE"))
         return database_refuse_file(database, fault);
     enum percuss_status status = check_schema(database, fill, fault);
-    /* it is written into the file: not into that of another program */
+    /* the journal mode is stored in the file: not in that of another program */
     if (!status && !(database_execute(database, "COMMIT; PRAGMA journal_mode = WAL") &&
                      database_execute(database, BOUND_LOG)))
         status = database_refuse_file(database, fault);
@@ -248,7 +248,7 @@ sqlite3_stmt *database_statement(struct database *database, enum statement state
 bool database_run(sqlite3_stmt *statement)
 {
     bool done = sqlite3_step(statement) == SQLITE_DONE;
-    /* a statement left open would keep its lock; the message of a failure stays */
+    /* an open statement would keep its lock; after a failure its message is still needed */
     if (done)
         sqlite3_reset(statement);
     return done;
@@ -292,7 +292,7 @@ enum percuss_status database_copy(struct database *database, const char *path, s
     sqlite3_backup *backup = NULL;
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_NOMUTEX;
     enum percuss_status status = PERCUSS_OK;
-    /* all pages in one step: nobody else uses the store meanwhile */
+    /* all pages in one step: no other process uses the store meanwhile */
     if (sqlite3_open_v2(path, &copy, flags, NULL) == SQLITE_OK)
         backup = sqlite3_backup_init(copy, "main", database->connection, "main");
     if (backup)

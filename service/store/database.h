@@ -40,53 +40,53 @@ enum statement {
     STATEMENT_COUNT
 };
 
-/* What a check finds. */
+/* Findings of a check. */
 struct audit {
     void (*complain)(void *context, const char *problem);
     void *context;
-    bool structure;                   /* asked for, besides the rows: opening checks it */
-    size_t specimens, replies, marks; /* that were looked at */
+    bool structure;                   /* check the structure, too, which opening has checked */
+    size_t specimens, replies, marks; /* that were checked */
     size_t damaged;                   /* complaints */
-    bool unusable; /* the file must not be used: nobody knows what was answered before */
+    bool unusable;                    /* the file must not be used: earlier answers are unknown */
 };
 
 struct database {
     sqlite3 *connection;
     sqlite3_stmt *statements[STATEMENT_COUNT];
-    char path[256]; /* its end, for messages */
+    char path[256]; /* cut to its end, for messages */
 };
 
 /* Writes the checksums that an upgrade by SQL alone cannot; false: it failed. */
 typedef bool database_fill(struct database *database);
 
-/* Opens the file, brings one of an older version up to date, or creates it; keeps other processes
- * out, checks that it is ours and whole, and prepares the statements. PERCUSS_BUSY: there is no
- * room to create it or to bring it up to date. database_close is due whatever came of it. */
+/* Opens the file, upgrades one of an older version, or creates it; locks out other processes,
+ * checks that it is ours and whole, and prepares the statements. PERCUSS_BUSY: there is no room to
+ * create or upgrade it. The caller calls database_close even after a failure. */
 enum percuss_status database_open(struct database *database, const char *path, database_fill *fill,
                                   struct fault *fault);
 void database_close(struct database *database);
 
-/* Complains of each flaw in the structure: indices, pages, free space. False: cannot be read. */
+/* Complains of each flaw in the structure: indices, pages, free space. False: it cannot be read. */
 bool database_audit(struct database *database, struct audit *audit);
 
-/* Copies the whole file, as it is between two transactions, to an empty one and has it on the disk;
- * no link may be in that path. PERCUSS_INTERNAL with what went wrong; the copy is to be removed
+/* Copies the whole file, in its state between two transactions, to an empty one and syncs it to the
+ * disk; that path must have no links. PERCUSS_INTERNAL with the reason; the caller removes the copy
  * then. */
 enum percuss_status database_copy(struct database *database, const char *path, struct fault *fault);
 
-/* Whether a column is that checksum. */
+/* Whether a column equals that checksum. */
 bool database_matches(sqlite3_stmt *row, int column, const struct digest *sum);
 
-/* The statement, rewound, with nothing bound. */
+/* The statement, reset and without bindings. */
 sqlite3_stmt *database_statement(struct database *database, enum statement statement);
 
 /* Runs a statement that returns no rows. */
 bool database_run(sqlite3_stmt *statement);
 
-/* Undoes the transaction, if one is open. */
+/* Rolls the transaction back, if one is open. */
 void database_roll_back(struct database *database);
 
-/* PERCUSS_INTERNAL with "FILE: what: what SQLite says". */
+/* PERCUSS_INTERNAL with "FILE: what: SQLite's message". */
 enum percuss_status database_fault(struct database *database, const char *what,
                                    struct fault *fault);
 

@@ -14,10 +14,10 @@
 
 #include "store/database.h"
 
-/* Of SQLite's file format: the header, where its numbers are in it (big-endian), and the octets
- * whose locks say that a process has the file to itself. */
+/* SQLite's file format: the size of the header, offsets of its numbers (big-endian), and the octets
+ * that a process locks to have the file to itself. */
 enum { HEADER_SIZE = 100, AT_VERSION = 60, AT_APPLICATION = 68 };
-static const char MAGIC[] = "SQLite format 3"; /* and its zero */
+static const char MAGIC[] = "SQLite format 3"; /* with its final zero */
 /* KiB: the log's bound (database.c), written back, and an impact with its reply. */
 static const unsigned long long ROOM = 2048;
 static const off_t LOCKS = 0x40000000, LOCK_COUNT = 512;
@@ -37,7 +37,7 @@ static enum percuss_status refuse_access(const char *path, const char *what, str
     return database_check_refuse(path, problem, fault);
 }
 
-/* Whether this user may make a folder that is missing: by the first one above it that is there. */
+/* Whether this user may make a missing folder: asks the first existing one above it. */
 static bool may_make(const char *folder)
 {
     char above[4096];
@@ -51,7 +51,7 @@ static bool may_make(const char *folder)
     return access(above, W_OK | X_OK) == 0;
 }
 
-/* With the command that makes the folder. */
+/* The message names the command that makes the folder. */
 static enum percuss_status refuse_folder(const char *path, const char *folder, struct fault *fault)
 {
     enum { SHOWN = 240 };
@@ -143,7 +143,7 @@ enum percuss_status database_check(const char *path, int version, struct fault *
         return database_folder_check(path, fault);
     if (file < 0)
         return refuse_access(path, "read", fault);
-    /* what SQLite asks for: a file, and a folder for those beside it */
+    /* SQLite needs a writable file, and a writable folder for its other files */
     enum percuss_status status = PERCUSS_OK;
     if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode))
         status = database_check_refuse(path, "is no file", fault);
@@ -151,7 +151,7 @@ enum percuss_status database_check(const char *path, int version, struct fault *
         status = refuse_access(path, "written", fault);
     else
         status = database_folder_check(path, fault);
-    /* whose it is */
+    /* ours, and in no other process's use */
     if (!status)
         status = check_header(path, file, version, fault);
     if (!status)

@@ -69,7 +69,7 @@ static json_t *family_object(const struct contact_family_samples *samples,
     const double *values[LISTS] = {samples->axis[0], samples->axis[1], samples->axis[2],
                                    samples->depth,   samples->force,   samples->area,
                                    samples->largest, samples->back,    samples->share};
-    /* what it is and how it came about, then the lists */
+    /* head and origin, then the lists */
     json_t *object = json_pack(
         "{s:s, s:s, s:I, s:{s:I, s:I, s:f}, s:f, s:f, s:I, s:I}", "format", FORMAT_NAME, "made_by",
         origin->program, "indentation_version", (json_int_t)INDENTATION_VERSION, "effort", "coarse",
@@ -86,7 +86,7 @@ static enum percuss_status family_read_head(const json_t *root, struct lists *li
 {
     const char *format = json_string_value(json_object_get(root, "format"));
     size_t version;
-    /* a file of this kind and version */
+    /* format and version */
     if (!format || strcmp(format, FORMAT_NAME) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
                          format ? format : "missing", FORMAT_NAME);
@@ -96,7 +96,7 @@ static enum percuss_status family_read_head(const json_t *root, struct lists *li
         status = fault_set(fault, PERCUSS_BAD_REQUEST,
                            "indentation_version: %zu: must be %d: compute the family anew", version,
                            INDENTATION_VERSION);
-    /* how far it was computed, how well, and the counts of its lists */
+    /* range, error, and the counts of its lists */
     if (!status)
         status = json_numbers_take(json_object_get(root, "computed"), "computed", &lists->computed,
                                    fault);
@@ -111,7 +111,7 @@ static enum percuss_status family_read_head(const json_t *root, struct lists *li
     return status;
 }
 
-/* How many values a list must have, by those before it. */
+/* The number of values that a list must have, by the counts of the lists before it; 0: any. */
 static size_t expected_count(const struct lists *lists, size_t list)
 {
     size_t tables = lists->count[0] * lists->count[1] * lists->count[2];
@@ -150,7 +150,7 @@ static void family_content_key(const struct lists *lists, char key[TABLE_KEY_SIZ
     table_numbers_key(LISTS, lists->count, (const double *const *)lists->values, key);
 }
 
-/* The object with the hash of its numbers as they are read back. */
+/* The object as text, with the hash of its numbers after they are rounded to text and read back. */
 static char *family_text(json_t *object)
 {
     struct lists lists = {0};

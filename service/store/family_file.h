@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A family of contact tables as a file: JSON with its places, errors, how it was computed, and
- * numbers of seven digits. */
+/* A family of contact tables as a file: JSON with its places, errors, origin, and numbers of seven
+ * digits. */
 #ifndef PERCUSS_STORE_FAMILY_FILE_H
 #define PERCUSS_STORE_FAMILY_FILE_H
 
@@ -11,7 +11,7 @@
 
 #define FAMILY_FILE_NAME "family.json"
 
-/* How a family came about. */
+/* Origin of a family. */
 struct family_origin {
     const char *program; /* name and version */
     double seconds;      /* processor time it took */
@@ -24,8 +24,8 @@ enum percuss_status family_file_save(const char *folder,
                                      const struct family_origin *origin, char path[TABLE_PATH_SIZE],
                                      struct fault *fault);
 
-/* Reads one, for contact_family_free. NULL with the path and what is wrong in the fault: no family,
- * damaged (its hash tells), or of another INDENTATION_VERSION. */
+/* Reads one, for contact_family_free. NULL with the path and the reason in the fault: no family,
+ * damaged (its hash differs), or of another INDENTATION_VERSION. */
 struct contact_family *family_file_load(const char *path, struct fault *fault);
 
 #endif

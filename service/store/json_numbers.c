@@ -29,7 +29,7 @@ enum percuss_status json_numbers_parse(const char *text, size_t size, json_t **r
     *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
     if (*root)
         return PERCUSS_OK;
-    /* jansson's reader says nothing else, or names the place, where memory runs out */
+    /* without memory jansson's reader sets no line, or has this code */
     if (error.line < 0 || json_error_code(&error) == json_error_out_of_memory)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     return fault_set(fault, PERCUSS_BAD_REQUEST, "line %d: must be JSON: %s", error.line,

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Numbers in the JSON of contact tables. Refusals are BAD_REQUEST with the name and what is
- * allowed; INTERNAL: no memory. */
+/* Numbers in the JSON of contact tables. Refusals are BAD_REQUEST with the name and the allowed
+ * values; INTERNAL: no memory. */
 #ifndef PERCUSS_STORE_JSON_NUMBERS_H
 #define PERCUSS_STORE_JSON_NUMBERS_H
 
@@ -11,11 +11,11 @@
 
 #include "base/fault.h"
 
-/* The text as JSON; the caller's reference. */
+/* The text as JSON; the caller owns the reference. */
 enum percuss_status json_numbers_parse(const char *text, size_t size, json_t **root,
                                        struct fault *fault);
 
-/* An array of them; the caller's reference. NULL: out of memory. */
+/* An array of numbers; the caller owns the reference. NULL: out of memory. */
 json_t *json_numbers(size_t count, const double *values);
 
 /* A finite number. */
@@ -30,7 +30,7 @@ enum percuss_status json_numbers_take_whole(const json_t *value, const char *nam
 enum percuss_status json_numbers_take_array(const json_t *array, const char *name, size_t *count,
                                             double **values, struct fault *fault);
 
-/* Whether the text member `name` of an object is that hash. */
+/* OK: the text member `name` of an object is that hash. */
 enum percuss_status json_numbers_check_hash(const json_t *root, const char *name,
                                             const char *expected, struct fault *fault);
 

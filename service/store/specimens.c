@@ -22,14 +22,14 @@ struct specimen_store {
 
 enum { DENT_COLUMNS = 8 };
 
-/* So that no column is forgotten when a dent learns something new. */
+/* A new member of struct dent needs a new column. */
 _Static_assert(sizeof(struct dent) == DENT_COLUMNS * sizeof(double), "dents have other columns");
 
 /* Reads the dents of the specimen with that row, for free(); *state NULL: none. */
 static enum percuss_status dents_read(struct database *database, int64_t id,
                                       struct body_state **state, struct fault *fault)
 {
-    /* how many there are */
+    /* their number */
     sqlite3_stmt *counting = database_statement(database, STATEMENT_DENT_COUNT);
     *state = NULL;
     sqlite3_bind_int64(counting, 1, id);
@@ -47,7 +47,7 @@ static enum percuss_status dents_read(struct database *database, int64_t id,
     if (!read)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     *read = sizes;
-    /* it is at rest: no mode is left out */
+    /* a body at rest: all its modes are known */
     for (size_t f = 0; f < sizeof read->known / sizeof *read->known; f++)
         read->known[f] = SIZE_MAX;
     /* their numbers, in the order of the struct */
@@ -106,8 +106,8 @@ static void dents_hash(struct hasher *hasher, const struct body_state *state)
     }
 }
 
-/* ---- stored replies: the last ones, and of each client the highest number among those that are no
- * longer kept, its mark ---- */
+/* ---- stored replies: the last ones, and the mark of each client: the highest number among its
+ * dropped replies ---- */
 
 enum { CLIENT_SIZE = 16 };
 
@@ -119,7 +119,7 @@ static struct digest mark_checksum(const void *client, uint64_t mark)
     return hash_digest(&hasher);
 }
 
-/* The mark in a row, if it is what was set. Sequences are unsigned, columns are not. */
+/* The mark in a row; false: its checksum differs. Sequences are unsigned, columns are signed. */
 static bool take_mark(sqlite3_stmt *row, uint64_t *mark)
 {
     *mark = (uint64_t)sqlite3_column_int64(row, 1);
@@ -182,11 +182,11 @@ static bool replies_drop_oldest(struct database *database)
     sqlite3_bind_int64(drop, 1, id);
     if (!database_run(drop) || read_mark(database, client, &mark, NULL))
         return false;
-    /* its client's mark: replies up to there are no longer kept */
+    /* its client's mark: replies up to that number are dropped */
     return sequence <= mark || set_mark(database, client, sequence);
 }
 
-/* Over all that a row says. */
+/* Covers all columns of a row. */
 static struct digest reply_checksum(const struct stored_reply *reply)
 {
     struct hasher hasher = {0};
@@ -210,7 +210,7 @@ static bool replies_keep(struct database *database, const struct stored_reply *r
     return database_run(keep);
 }
 
-/* Whether the row has the sizes of a reply. */
+/* Whether the columns of the row have the sizes of a reply's. */
 static bool reply_is_shaped(sqlite3_stmt *row, const struct stored_reply *reply)
 {
     return sqlite3_column_bytes(row, 0) == CLIENT_SIZE &&
@@ -218,7 +218,7 @@ static bool reply_is_shaped(sqlite3_stmt *row, const struct stored_reply *reply)
            sqlite3_column_bytes(row, 3) > 0;
 }
 
-/* The row as a reply, whose bytes stay the row's; false: it is not what was kept. */
+/* The row as a reply; its bytes point into the row. False: its sizes or checksum differ. */
 static bool reply_read_row(sqlite3_stmt *row, struct stored_reply *reply)
 {
     if (!reply_is_shaped(row, reply))
@@ -242,7 +242,7 @@ static enum percuss_status reply_refuse_damaged(struct database *database,
         database->path, (unsigned long long)reply->sequence);
 }
 
-/* Copies the row to the reply, if it is what was kept. What a row says is in memory: taking it does
+/* Copies the row to the reply, unless it is damaged. The columns of a row are in memory: this does
  * not read the file. */
 static enum percuss_status take_reply(struct database *database, sqlite3_stmt *row,
                                       struct stored_reply *reply, struct fault *fault)
@@ -260,12 +260,12 @@ static enum percuss_status take_reply(struct database *database, sqlite3_stmt *r
     return PERCUSS_OK;
 }
 
-/* Complains of replies and marks that differ from the stored ones. False: they cannot be read. */
+/* Complains of damaged replies and marks. False: they cannot be read. */
 static bool replies_audit(struct database *database, struct audit *audit)
 {
     char problem[160];
     int found;
-    /* replies: each can be done without */
+    /* replies: the store is usable without a damaged one */
     sqlite3_stmt *replies = database_statement(database, STATEMENT_REPLIES);
     for (; (found = sqlite3_step(replies)) == SQLITE_ROW; audit->replies++) {
         struct stored_reply reply;
@@ -321,7 +321,8 @@ static bool replies_fill(struct database *database)
         struct stored_reply reply;
         if (sqlite3_column_type(replies, 4) != SQLITE_NULL)
             continue;
-        /* what is no reply stays without, and is found to be damaged when it is asked for */
+        /* a malformed row stays without a checksum: replies_audit and specimen_store_find report
+         * it */
         reply_read_row(replies, &reply);
         if (!reply_is_shaped(replies, &reply))
             continue;
@@ -339,8 +340,8 @@ static bool replies_fill(struct database *database)
 
 enum { SIGNATURE_SIZE = 768 };
 
-/* All numbers of a body that its dents depend on, in words and 17 digits: shape, sizes, elastic and
- * plastic constants of the material; neither modes nor its name. The column `nature` holds it. */
+/* The signature of a body, in the column `nature`: all that its dents depend on, with 17 digits:
+ * shape, sizes, elastic and plastic constants of the material; neither its modes nor its name. */
 static void describe_signature(const struct body *body, char signature[SIGNATURE_SIZE])
 {
     const struct material *material = &body->material;
@@ -363,7 +364,7 @@ static enum percuss_status count_all(struct specimen_store *store, struct fault 
     return PERCUSS_OK;
 }
 
-/* A specimen with a row; the texts are the row's. */
+/* A row of a specimen; the texts point into the row. */
 struct specimen_row {
     int64_t id;
     struct specimen specimen;
@@ -381,7 +382,7 @@ static struct digest specimen_checksum(const struct specimen_row *row)
     return hash_digest(&hasher);
 }
 
-/* What the row says, without dents; false: out of memory, or it is none of a specimen. */
+/* Takes the columns of the row, without dents; false: out of memory, or it is no specimen's row. */
 static bool specimen_take_row(sqlite3_stmt *statement, struct specimen_row *row)
 {
     *row = (struct specimen_row){
@@ -394,7 +395,7 @@ static bool specimen_take_row(sqlite3_stmt *statement, struct specimen_row *row)
     return row->specimen.name && row->specimen.body && row->signature;
 }
 
-/* The row with its dents, for free(); BAD_REQUEST: it is not what was stored. */
+/* Takes the row with its dents, for free(); BAD_REQUEST: its checksum differs. */
 static enum percuss_status take_specimen(struct specimen_store *store, sqlite3_stmt *statement,
                                          struct specimen_row *row, struct body_state **state,
                                          struct fault *fault)
@@ -426,7 +427,7 @@ static bool specimen_seal(struct database *database, int64_t id, const struct di
     return database_run(statement);
 }
 
-/* Gives a checksum to what older files hold without. */
+/* Gives checksums to all rows of an older file. */
 static bool store_fill(struct database *database)
 {
     sqlite3_stmt *list = database_statement(database, STATEMENT_LIST);
@@ -453,9 +454,9 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     created->most_replies = replies;
-    /* our file, and how much it holds */
+    /* the file, and the counts of its rows */
     enum percuss_status status = database_open(&created->database, path, store_fill, fault);
-    /* SQLite does not say that the folder is missing */
+    /* SQLite's message does not name a missing folder */
     if (status == PERCUSS_BAD_REQUEST && access(path, F_OK) != 0)
         (void)database_folder_check(path, fault);
     if (!status)
@@ -481,19 +482,19 @@ size_t specimen_store_count(const struct specimen_store *store)
     return store->specimens;
 }
 
-/* Whether the row is of that body, as it is now. */
+/* Whether the row is of that body with its present shape, size and material. */
 static enum percuss_status specimen_check_body(const struct specimen_row *row,
                                                const struct body *body, struct fault *fault)
 {
     char signature[SIGNATURE_SIZE];
     const char *name = row->specimen.name, *id = row->specimen.body;
-    /* it was made of the body of this id */
+    /* the body's id */
     if (strcmp(id, body->id) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "%s: is a specimen of %s, not of %s: must be another name, or be cleared "
                          "first",
                          name, id, body->id);
-    /* whose shape, size and material are what they were */
+    /* its shape, size and material */
     describe_signature(body, signature);
     if (strcmp(row->signature, signature) == 0)
         return PERCUSS_OK;
@@ -503,7 +504,7 @@ static enum percuss_status specimen_check_body(const struct specimen_row *row,
                      name, id);
 }
 
-/* PERCUSS_INTERNAL for a specimen that is damaged: nothing is wrong with the request. */
+/* PERCUSS_INTERNAL for a damaged specimen: the request is good. */
 static enum percuss_status load_row(struct specimen_store *store, sqlite3_stmt *statement,
                                     const struct body *body, struct body_state **state,
                                     struct fault *fault)
@@ -529,7 +530,7 @@ enum percuss_status specimen_store_load(struct specimen_store *store, const char
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
     int found = sqlite3_step(statement);
     enum percuss_status status = PERCUSS_OK;
-    /* known: whole and of the same body, with its dents */
+    /* a known specimen: check it, and take its dents */
     if (found == SQLITE_ROW)
         status = load_row(store, statement, body, state, fault);
     else if (found != SQLITE_DONE)
@@ -543,13 +544,13 @@ enum percuss_status specimen_store_load(struct specimen_store *store, const char
     return status;
 }
 
-/* *created counts the names that are new. */
+/* *created counts the new names. */
 static bool write_change(struct specimen_store *store, const struct specimen_change *change,
                          size_t *created)
 {
     char signature[SIGNATURE_SIZE];
     describe_signature(change->body, signature);
-    /* one impact more of the name, which is new maybe */
+    /* add one to its impacts; insert a new name */
     sqlite3_stmt *hit = database_statement(&store->database, STATEMENT_HIT);
     sqlite3_bind_text(hit, 1, change->name, -1, SQLITE_STATIC);
     sqlite3_bind_text(hit, 2, change->body->id, -1, SQLITE_STATIC);
@@ -566,7 +567,7 @@ static bool write_change(struct specimen_store *store, const struct specimen_cha
     if (sqlite3_step(hit) != SQLITE_DONE)
         return false;
     sqlite3_reset(hit);
-    /* its dents are those after the impact */
+    /* replace its dents, then the checksum */
     return dents_write(&store->database, row.id, change->after) &&
            specimen_seal(&store->database, row.id, &sum);
 }
@@ -582,7 +583,7 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
     for (size_t i = 0; good && i < count; i++)
         good = write_change(store, &changes[i], &created);
     good = good && (!reply || replies_keep(database, reply));
-    /* more than one where the limit was lowered */
+    /* several replies where the limit was lowered */
     for (; good && kept > store->most_replies; kept--)
         good = replies_drop_oldest(database);
     good = good && database_run(database_statement(database, STATEMENT_COMMIT));
@@ -591,7 +592,7 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
         store->specimens += created;
         return PERCUSS_OK;
     }
-    /* or nothing of all that */
+    /* or roll all of it back */
     enum percuss_status status = database_fault(database, "the impact is not stored", fault);
     database_roll_back(database);
     return status;
@@ -605,7 +606,7 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
     sqlite3_stmt *statement = database_statement(database, STATEMENT_REPLY);
     reply->bytes = NULL;
     reply->damaged = false;
-    /* the reply, where it is kept */
+    /* a kept reply */
     sqlite3_bind_blob(statement, 1, reply->client, sizeof reply->client, SQLITE_STATIC);
     sqlite3_bind_int64(statement, 2, (int64_t)reply->sequence);
     int found = sqlite3_step(statement);
@@ -614,7 +615,7 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
         sqlite3_reset(statement);
         return status;
     }
-    /* below the client's mark it was once */
+    /* no reply: up to the client's mark it may have been dropped */
     if (found != SQLITE_DONE)
         return database_fault(database, "stored replies", fault);
     sqlite3_reset(statement);
@@ -636,7 +637,7 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
     int found;
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
     while ((found = sqlite3_step(statement)) == SQLITE_ROW) {
-        /* each with its dents, lent to the visitor; a damaged one keeps nobody from the others */
+        /* each with its dents, which the visitor borrows; a damaged one does not end the visit */
         struct specimen_row row;
         struct body_state *state;
         status = take_specimen(store, statement, &row, &state, fault);
@@ -648,14 +649,13 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
         free(state);
         status = PERCUSS_OK;
     }
-    /* stopped by an error of the database */
     if (!status && found != SQLITE_DONE)
         status = database_fault(&store->database, "specimens", fault);
     sqlite3_reset(statement);
     return status;
 }
 
-/* Complains of specimens that are not what was stored. False: they cannot be read. */
+/* Complains of damaged specimens. False: they cannot be read. */
 static bool audit_specimens(struct specimen_store *store, struct audit *audit)
 {
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_LIST);

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Specimens: durable objects whose dents outlive the daemon, with the replies that left them, in an
- * SQLite file (WAL, synchronous FULL). A reply and the dents it speaks of become durable together
- * or not at all. One process has the file open, one thread uses the store. */
+/* Specimens: durable objects with dents that outlive the daemon, and the replies that caused them,
+ * in an SQLite file (WAL, synchronous FULL). One transaction makes a reply and its dents durable.
+ * One process has the file open, one thread uses the store. */
 #ifndef PERCUSS_STORE_SPECIMENS_H
 #define PERCUSS_STORE_SPECIMENS_H
 
@@ -17,7 +17,7 @@
 
 struct audit;
 
-/* Most specimens of a store. */
+/* The largest number of specimens in a store. */
 enum { SPECIMEN_STORE_MOST = 4096 };
 
 struct specimen_store;
@@ -29,10 +29,10 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
                                         struct specimen_store **store, struct fault *fault);
 void specimen_store_close(struct specimen_store *store); /* NULL is allowed */
 
-/* The dents of a specimen as a body at rest that has them; NULL: none, or a new name. The caller
+/* The state of a body at rest with the specimen's dents; NULL: none, or a new name. The caller
  * free()s it. PERCUSS_BAD_REQUEST: the name is that of another body, or the body has another shape,
- * size or material than when the specimen was first hit, or the store is full. PERCUSS_INTERNAL:
- * it cannot be read, or is not what was stored. */
+ * size or material than at the specimen's first impact, or the store is full. PERCUSS_INTERNAL: it
+ * cannot be read, or its checksum differs. */
 enum percuss_status specimen_store_load(struct specimen_store *store, const char *name,
                                         const struct body *body, struct body_state **state,
                                         struct fault *fault);
@@ -50,8 +50,8 @@ struct stored_reply {
     uint64_t sequence;
     uint64_t content[2]; /* hash of the request */
     size_t size;
-    void *bytes;  /* in the form the caller chose */
-    bool damaged; /* found, but not what was kept */
+    void *bytes;  /* in the caller's encoding */
+    bool damaged; /* found, but its size or checksum differs */
 };
 
 /* Makes the changes and the reply (NULL: none is kept) durable, in one transaction. After
@@ -60,43 +60,42 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
                                           const struct specimen_change *changes, size_t count,
                                           const struct stored_reply *reply, struct fault *fault);
 
-/* The reply kept under reply->client and ->sequence: fills in the rest, and the caller free()s
- * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: replies of that client with
- * numbers as high are no longer kept, so that nobody knows whether there was one. PERCUSS_INTERNAL:
- * with ->damaged what the file holds is not what was kept: its size or checksum differs; without,
- * it cannot be read now, or the mark of its client is damaged, and nobody knows whether there was
- * one. */
+/* Finds the reply to reply->client and ->sequence and fills in the rest; the caller free()s
+ * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: the number is not above those of
+ * the client's dropped replies: whether there was a reply is unknown. PERCUSS_INTERNAL with
+ * ->damaged: the size or checksum of the stored reply differs; without ->damaged: it cannot be read
+ * now, or the mark of its client is damaged, so that it is unknown whether there was one. */
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
                                         struct fault *fault);
 
-/* A specimen as listed. Borrowed during the visit. */
+/* A listed specimen. Borrowed during the visit. */
 struct specimen {
     const char *name;
     const char *body;               /* id */
-    uint64_t impacts;               /* counted on it */
+    uint64_t impacts;               /* their number */
     const struct body_state *state; /* its dents; NULL: none */
-    bool damaged;                   /* it is not what was stored: without dents */
+    bool damaged;                   /* its checksum differs: without dents */
 };
 typedef void specimen_visitor(void *context, const struct specimen *specimen);
 
-/* Shows the specimen of that name, or with NULL all of them in the order of their names. */
+/* Calls the visitor with the specimen of that name, or (NULL) with all in the order of their
+ * names. */
 enum percuss_status specimen_store_visit(struct specimen_store *store, const char *name,
                                          specimen_visitor *visitor, void *context,
                                          struct fault *fault);
 
-/* Forgets a specimen, if there is one of that name: its dents and which body it is. Replies stay.
- */
+/* Deletes the specimen of that name, if there is one, with its dents. Replies stay. */
 enum percuss_status specimen_store_clear(struct specimen_store *store, const char *name,
                                          struct fault *fault);
 
-/* Looks at everything in the store and complains of what is damaged: of specimens and replies,
- * which are refused when they are asked for, and of what makes it `unusable`. PERCUSS_INTERNAL: the
- * file cannot be read. */
+/* Checks all rows and complains of each damaged one: specimens and replies, which their own
+ * requests will refuse, and marks, which make the store `unusable`. PERCUSS_INTERNAL: the file
+ * cannot be read. */
 enum percuss_status specimen_store_audit(struct specimen_store *store, struct audit *audit,
                                          struct fault *fault);
 
-/* Copies the store, as it is now, to an empty file, in whose path no link may be. PERCUSS_INTERNAL:
- * what is there is no copy. */
+/* Copies the store in its present state to an empty file; that path must have no links.
+ * PERCUSS_INTERNAL: the file is no good copy. */
 enum percuss_status specimen_store_copy(struct specimen_store *store, const char *path,
                                         struct fault *fault);
 

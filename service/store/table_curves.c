@@ -39,19 +39,20 @@ void branch_shares_fill(const double *recovery, double part, size_t count, doubl
     share[count - 1] = 1.0;
 }
 
-/* Samples of a branch at equal steps of the way back: twice those of the computation, which lie
+/* Samples of a branch at equal steps of the recovery: twice as many as the computed ones, which lie
  * close together where the force is small. */
 enum { SHARES = 2 * INDENTATION_SAMPLES - 1 };
 
-/* Points up to first yield: the spline's bend there reaches back over some of them, by a quarter
- * from one to the next; the others are Hertz's. */
+/* Points up to first yield: the spline's bend there disturbs the points before it, by a quarter
+ * from one to the next; the others lie on Hertz's curve. */
 enum { ELASTIC_POINTS = 8 };
 
-/* Branches put in between first yield and the first computed one, where a dent and what its branch
- * differs by from Hertz's begin with the square of the way beyond yield: with the computed branch
- * taken down to yield a blow there would give back more than it brought. The first of them is
- * elastic and lies at yield but for rounding. In between laws mix branches linearly, so that what
- * grows with the square is off by up to 1/(4 ONSET^2) of the computed branch's. */
+/* Branches inserted between first yield and the first computed one. There the dent and the branch's
+ * difference from Hertz's grow with the square of the indentation beyond yield: with the computed
+ * branch scaled down to yield an impact would return more energy than it brought. The first
+ * inserted branch is elastic and lies at yield but for rounding. Laws interpolate branches
+ * linearly, so that a quantity that grows with the square is off by up to 1/(4 ONSET^2) of the
+ * computed branch's. */
 enum { ONSET = 8 };
 static const double JUST_BEYOND = 1.0 + 1e-6;
 
@@ -65,7 +66,7 @@ static double at_least_rising(double value, double before)
 }
 
 /* The origin, Hertz up to first yield, the computed points beyond. The computed contact radius is
- * known to half an element only, and must not shrink. Returns the number of points. */
+ * accurate to half an element only, and must not shrink. Returns the number of points. */
 static size_t sample_loading(const struct indentation_table *table, double *indentation,
                              double *force, double *radius)
 {
@@ -103,7 +104,7 @@ static enum percuss_status table_curves_check(const struct indentation_table *ta
     return PERCUSS_OK;
 }
 
-/* Room for samples, and what is in it. */
+/* Samples in one block of memory. */
 struct samples {
     size_t points, branches;
     double *indentation, *force, *radius;
@@ -145,7 +146,7 @@ static void sample_branches(const struct indentation_table *table, struct sample
         samples->largest[0] *= JUST_BEYOND;
 }
 
-/* The last values times what the law makes of theirs from there on. */
+/* Continues the curves beyond the last samples in proportion to the law's. */
 static void samples_continue(const struct contact_law *law, struct samples *samples)
 {
     const struct plastic_curve *curve = law->operations->curve;
@@ -202,7 +203,7 @@ enum percuss_status table_curves_make(const struct indentation_table *table,
     enum percuss_status status = table_curves_check(table, fault);
     if (status)
         return status;
-    /* room for what is put in before the samples and after them */
+    /* memory for inserted branches and for the continuation, too */
     size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     struct samples samples = {.branches = branches};
     if (!samples_allocate(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND))

@@ -168,7 +168,7 @@ static enum percuss_status table_read_numbers(const json_t *root, struct indenta
     for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
         status = json_numbers_take(table_member(root, list[i].section, list[i].name), list[i].name,
                                    list[i].value, fault);
-    /* how large the computation was */
+    /* the effort of the computation */
     if (!status)
         status = json_numbers_take_whole(table_member(root, "effort", "nodes"), "nodes",
                                          &table->nodes, fault);
@@ -184,7 +184,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
     const char *format = json_string_value(json_object_get(root, "format"));
     size_t version;
     char key[TABLE_KEY_SIZE];
-    /* a file of this kind and version */
+    /* format and version */
     if (!format || strcmp(format, FORMAT_NAME) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
                          format ? format : "missing", FORMAT_NAME);
@@ -197,7 +197,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
                          "indentation_version: %zu: must be %d: compute the table anew", version,
                          INDENTATION_VERSION);
     table->version = INDENTATION_VERSION;
-    /* what it holds */
+    /* inputs, curves and numbers */
     status = table_read_input(root, &table->input, fault);
     if (!status)
         status = table_read_arrays(root, table, fault);
@@ -205,7 +205,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
         status = table_read_numbers(root, table, fault);
     if (status)
         return status;
-    /* hashes tell a file that was changed */
+    /* a changed file has other hashes */
     table_key(&table->input, key);
     status = json_numbers_check_hash(root, "key", key, fault);
     table_content_key(table, key);
@@ -237,7 +237,7 @@ static bool folder_make(const char *path)
         errno = ENAMETOOLONG;
         return false;
     }
-    /* each that it lies in, then itself */
+    /* each folder above it, then itself */
     for (char *slash = strchr(part + 1, '/'); *part && slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         if (mkdir(part, 0755) != 0 && errno != EEXIST && access(part, F_OK) != 0)
@@ -270,7 +270,7 @@ bool folder_own_tables(char *path, size_t size)
                find_folder_in(path, size, "HOME", "", "/.local/share/percuss/tables");
     if (*named == '/' || !*named)
         return find_folder_in(path, size, "PERCUSS_TABLES", "", "");
-    /* from the working folder: it is named to people who may be elsewhere */
+    /* absolute, as messages name it to readers with another working folder */
     if (!getcwd(here, sizeof here))
         return false;
     int length = snprintf(path, size, "%s/%s", here, named);
@@ -285,7 +285,7 @@ static enum percuss_status table_file_refuse(struct fault *fault, const char *pa
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: %s: %s", path, what, strerror(errno));
 }
 
-/* Text and the name go to disk before the new name is seen. */
+/* Writes the text and syncs it, before its file gets the final name. */
 static bool write_synced(int file, const char *text)
 {
     size_t left = strlen(text);
@@ -307,7 +307,7 @@ enum percuss_status table_file_write(const char *folder, const char *text, const
     char aside[TABLE_PATH_SIZE];
     if (!folder_make(folder))
         return table_file_refuse(fault, folder, "cannot be made");
-    /* no .json at its end: not taken for a table */
+    /* without .json at its end it is not loaded as a table */
     if (snprintf(aside, sizeof aside, "%s/.table-XXXXXX", folder) >= (int)sizeof aside) {
         errno = ENAMETOOLONG;
         return table_file_refuse(fault, folder, "cannot be written to");
@@ -315,7 +315,7 @@ enum percuss_status table_file_write(const char *folder, const char *text, const
     int file = mkstemp(aside);
     if (file < 0)
         return table_file_refuse(fault, folder, "cannot be written to");
-    /* it gets its name once it is whole */
+    /* rename it once it is whole */
     bool good = write_synced(file, text) && fchmod(file, 0644) == 0;
     good = close(file) == 0 && good;
     if (good && rename(aside, path) == 0)

@@ -103,7 +103,7 @@ void table_numbers_key(size_t lists, const size_t *counts, const double *const *
     fnv_write(hash, key);
 }
 
-/* Indentation up to which a law takes up an energy, J. */
+/* Indentation at which a law has absorbed an energy (J). */
 static double depth_for(const struct contact_law *law, double energy, double limit)
 {
     double low = 0.0, high = limit;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What identifies a computed contact table. */
+/* Identification of a computed contact table by its inputs. */
 #ifndef PERCUSS_STORE_TABLE_KEY_H
 #define PERCUSS_STORE_TABLE_KEY_H
 
@@ -11,13 +11,12 @@
 
 enum { TABLE_KEY_SIZE = 33 };
 
-/* Radius of every table that is made for its materials alone: laws scale, see
- * contact_law_table_at. */
+/* Radius of every table made for its materials alone: laws scale, see contact_law_table_at. */
 #define TABLE_RADIUS 0.01
 
 enum { TABLE_RESOLUTION = 12 };
 
-/* 32 hexadecimal digits, a hash of all that the numbers depend on: both materials' elastic and
+/* 32 hexadecimal digits, a hash of all inputs of the computation: both materials' elastic and
  * plastic constants (in either order; neither names nor densities), radius, largest indentation,
  * resolution and INDENTATION_VERSION. */
 void table_key(const struct region_input *input, char key[TABLE_KEY_SIZE]);
@@ -25,17 +24,17 @@ void table_key(const struct region_input *input, char key[TABLE_KEY_SIZE]);
 /* A hash of all numbers of a table, in the same form. */
 void table_content_key(const struct indentation_table *table, char key[TABLE_KEY_SIZE]);
 
-/* The same of any lists of numbers. */
+/* The same for any lists of numbers. */
 void table_numbers_key(size_t lists, const size_t *counts, const double *const *values,
                        char key[TABLE_KEY_SIZE]);
 
-/* Same constants to the last bit, but for name and density, which a static region does without. */
+/* Same constants to the last bit, except name and density, which a static region does not need. */
 bool table_same_material(const struct material *a, const struct material *b);
 
-/* What to compute for two materials so that it covers impacts at up to `speed` (m/s) of a solid
- * sphere of the denser one, of any size, on an immovable flat of the other: no free pair of compact
- * bodies of these materials goes deeper. A quarter is added; the region's own limit of 0.02 radius
- * may cut it. */
+/* The input for two materials that covers impacts at up to `speed` (m/s) of a solid sphere of the
+ * denser one, of any size, on an immovable flat of the other: no free pair of compact bodies of
+ * these materials indents deeper. A quarter is added; the region's own limit of 0.02 radius may cut
+ * it. */
 struct region_input table_input(const struct material *a, const struct material *b, double speed);
 
 #endif

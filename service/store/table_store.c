@@ -29,7 +29,7 @@ struct table_entry {
 struct table_store {
     _Atomic(struct table_entry *) first;
     struct contact_family *family;
-    bool has_looked; /* for a family */
+    bool has_looked; /* has looked for a family */
     struct contact_table_source source;
 };
 
@@ -124,12 +124,12 @@ enum percuss_status table_store_add(struct table_store *store,
         free(entry);
         return status;
     }
-    /* by what it is looked up, and preferred to others */
+    /* keys for lookup and preference */
     memcpy(entry->materials, table->input.materials, sizeof entry->materials);
     entry->depth = contact_curves_range(entry->curves) / table->input.radius;
     entry->error = table->force_error;
     table_key(&table->input, entry->key);
-    /* into the list in one step: others look up meanwhile */
+    /* one atomic step into the list: other threads look up meanwhile */
     entry->next = atomic_load(&store->first);
     while (!atomic_compare_exchange_weak(&store->first, &entry->next, entry)) {
     }
@@ -186,7 +186,7 @@ enum percuss_status table_store_load(struct table_store *store, const char *fold
                          strerror(errno));
     if (!store->has_looked)
         table_store_load_family(store, folder, complain);
-    /* what is no sound table is left out */
+    /* a damaged table is left out */
     for (int i = 0; i < found; i++) {
         char path[TABLE_PATH_SIZE];
         struct fault reason;
