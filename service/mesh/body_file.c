@@ -17,13 +17,14 @@
 
 static const char FORMAT[] = "percuss body";
 static const unsigned VERSION = 1;
-/* Numbers of one piece of a packed dataset: about a megabyte, which a processor's cache holds. */
+/* Numbers in one chunk of a packed dataset: about a megabyte, which fits a processor's cache. */
 static const size_t PIECE = 262144;
-/* The fastest level: what is gained comes from the shuffle of the bytes. */
+/* The fastest level: the shuffle of the bytes brings the gain. */
 static const unsigned DEFLATE = 1;
-/* Deflate makes a thousandth of numbers at best; the file's may be half as wide as ours. */
+/* The largest compression: Deflate reaches 1000 at best, and the file's numbers may be half as wide
+ * as ours. */
 static const size_t MOST_PACKED = 2200;
-/* Larger extents are no body's: products of them stay far from overflow. */
+/* No body has larger extents: products of them stay far from overflow. */
 static const size_t MOST = 100000000;
 
 /* ---- layout: the list of datasets, which writing, reading and checks follow ---- */
@@ -32,7 +33,7 @@ enum { LAYOUT_MOST = 40, LAYOUT_RANK = 3 };
 
 enum layout_type { LAYOUT_REAL64, LAYOUT_REAL32, LAYOUT_WHOLE32, LAYOUT_WHOLE8, LAYOUT_NAME };
 
-/* What numbers may be. */
+/* Allowed numbers. */
 enum layout_range {
     LAYOUT_FINITE,
     LAYOUT_POSITIVE,
@@ -42,20 +43,20 @@ enum layout_range {
 };
 
 struct layout {
-    const char *name; /* in the file */
+    const char *name;
     const char *unit;
     enum layout_type type;
     enum layout_range range;
     int rank;
-    const size_t *extent[LAYOUT_RANK]; /* where they stand */
-    bool counts;                       /* a reader takes the first extent from this dataset */
+    const size_t *extent[LAYOUT_RANK]; /* members of the body */
+    bool counts;                       /* reading sets the first extent from this dataset */
     bool optional;
-    bool packed; /* large: in compressed pieces */
-    void *value; /* where it stands; NULL: *array is allocated by a reader */
+    bool packed; /* large: in compressed chunks */
+    void *value; /* member of the body; NULL: reading allocates *array */
     void **array;
 };
 
-/* Faces and materials, which the file holds member by member. */
+/* Faces and materials as arrays of their members, one dataset each. */
 struct layout_flat {
     unsigned char *face_count, *face_material;
     unsigned *face_patch, *face_nodes;
@@ -90,7 +91,7 @@ static struct layout layout_whole(const char *name, unsigned *value)
     return (struct layout){.name = name, .unit = "1", .type = LAYOUT_WHOLE32, .value = value};
 }
 
-/* An array of one number for each of something. */
+/* A list of `count` numbers. */
 static struct layout layout_list_of(const char *name, const char *unit, enum layout_range range,
                                     const size_t *count, double **array)
 {
@@ -167,7 +168,7 @@ static struct layout *list_faces(struct layout *next, struct mesh_body *body,
 {
     const size_t *count = &body->face_count;
     const struct layout small = {.type = LAYOUT_WHOLE8, .unit = "1", .rank = 1, .extent = {count}};
-    /* what a face is */
+    /* element faces */
     *next = small;
     next->name = "faces/count";
     next->counts = true;
@@ -181,7 +182,7 @@ static struct layout *list_faces(struct layout *next, struct mesh_body *body,
     next++->array = (void **)&flat->face_patch;
     *next = layout_table_of("faces/nodes", "1", count, &CORNERS, &flat->face_nodes);
     next++->type = LAYOUT_WHOLE32;
-    /* and what the surface is like at its nodes */
+    /* normal, curvature, flexibility at their nodes */
     const size_t *widths[] = {&THREE, &SIX, &ONE};
     const char *names[] = {"faces/normal", "faces/curvature", "faces/doubt"};
     const char *units[] = {"1", "1/m", "rad"};
@@ -275,7 +276,7 @@ static void layout_flat_free(struct layout_flat *flat)
         free(arrays[i]);
 }
 
-/* Copies one way or the other. */
+/* Copies to the member (`back`) or from it. */
 static void layout_pass(void *flat, void *member, size_t size, bool back)
 {
     if (back)
@@ -378,9 +379,9 @@ static const char *layout_allowed(enum layout_range range)
     return texts[range];
 }
 
-/* ---- HDF5 error guard: HDF5 prints no errors to standard error between begin and end. The library
- * stays loaded from then on, even if its user here is unloaded: it gives each thread that calls it
- * data of its own, which its code releases when the thread ends. ---- */
+/* ---- HDF5 error guard: between begin and end HDF5 prints no errors to standard error. It also
+ * keeps the library loaded, even after this code is unloaded: HDF5 allocates data for each thread
+ * that calls it, and its code releases them when the thread ends. ---- */
 
 /* The handler outside the guard. */
 struct hdf5_guard {
@@ -388,7 +389,7 @@ struct hdf5_guard {
     void *data;
 };
 
-/* Wherever it was found; in a program that is linked whole there is nothing to hold. */
+/* Keeps the loaded library file; a statically linked program has none. */
 static void hold_library(void)
 {
     Dl_info place;
@@ -439,7 +440,7 @@ static enum percuss_status body_file_out_of_memory(const struct body_file *file)
     return fault_set(file->fault, PERCUSS_INTERNAL, "%.200s: out of memory", file->path);
 }
 
-/* The type of numbers in memory; to be closed by type_close. */
+/* The type of numbers in memory; close it with H5Tclose. */
 static hid_t type_open(enum layout_type type)
 {
     if (type == LAYOUT_NAME) {
@@ -486,7 +487,7 @@ static bool write_version(hid_t at)
     return good;
 }
 
-/* Pieces of whole rows: a row is what stands at one first index. */
+/* Chunks of whole rows; a row has all numbers of one first index. */
 static void pack_dataset(hid_t properties, const struct layout *layout, const hsize_t *extents)
 {
     hsize_t piece[LAYOUT_RANK] = {1, 1, 1};
@@ -554,9 +555,9 @@ static enum percuss_status write_layout(const struct body_file *file, const stru
     return status;
 }
 
-/* Writes the file and gives it its name. */
-static enum percuss_status write_aside(struct body_file *file, const struct atomic_file *place,
-                                       const struct mesh_body *body)
+/* Writes a temporary file and renames it. */
+static enum percuss_status write_temporary(struct body_file *file, const struct atomic_file *place,
+                                           const struct mesh_body *body)
 {
     struct fault reason;
     enum percuss_status status;
@@ -577,8 +578,7 @@ enum percuss_status body_file_write(const char *path, const struct mesh_body *bo
 {
     struct atomic_file place;
     struct fault reason;
-    /* its end of the process falls over a file whose closing has failed; nothing is left to write
-     */
+    /* HDF5's exit handler crashes on a file that failed to close; there is nothing left to write */
     H5dont_atexit();
     struct hdf5_guard guard = hdf5_guard_begin();
     struct body_file file = {path, -1, fault};
@@ -586,21 +586,21 @@ enum percuss_status body_file_write(const char *path, const struct mesh_body *bo
     if (status)
         body_file_refuse(&file, "cannot be created: %s", reason.text);
     else
-        status = write_aside(&file, &place, body);
+        status = write_temporary(&file, &place, body);
     hdf5_guard_end(&guard);
     return status;
 }
 
 /* ---- reading ---- */
 
-/* A text of at most size - 1 bytes; false: there is none of that kind. */
+/* Reads a text of at most size - 1 bytes; false: there is no such attribute. */
 static bool read_attribute(const struct body_file *file, const char *name, char *text, size_t size)
 {
     memset(text, 0, size);
     hid_t attribute = H5Aopen(file->id, name, H5P_DEFAULT);
     hid_t stored = H5Aget_type(attribute);
     hid_t space = H5Aget_space(attribute);
-    /* of one fixed length, and only one */
+    /* one string of fixed length */
     bool good = attribute >= 0 && H5Tget_class(stored) == H5T_STRING &&
                 H5Tis_variable_str(stored) == 0 && H5Sget_simple_extent_npoints(space) == 1;
     if (good) {
@@ -634,7 +634,7 @@ static enum percuss_status check_format(const struct body_file *file)
     return PERCUSS_OK;
 }
 
-/* Takes the extents of a dataset, or compares them with what others have said. */
+/* Takes the extents of a dataset, or compares them with those of earlier datasets. */
 static enum percuss_status check_extents(const struct body_file *file, const struct layout *layout,
                                          hid_t set)
 {
@@ -648,7 +648,7 @@ static enum percuss_status check_extents(const struct body_file *file, const str
         return body_file_refuse(file, "%s: has %d dimensions: must have %d", layout->name, rank,
                                 layout->rank);
     for (int d = 0; d < rank; d++) {
-        /* the body's own counts, which a reader fills */
+        /* the body's own counts, which reading fills */
         size_t *count = (size_t *)layout->extent[d];
         if (d == 0 && layout->counts && extents[0] <= MOST)
             *count = (size_t)extents[0];
@@ -679,7 +679,7 @@ static enum percuss_status check_class(const struct body_file *file, const struc
                                                         : "whole numbers");
 }
 
-/* Where damaged extents claim more than the file can hold, reading would fill all memory. */
+/* False: damaged extents claim more than the file can hold, and reading would fill all memory. */
 static bool can_hold(const struct body_file *file, const struct layout *layout, hid_t set)
 {
     hsize_t stored = H5Dget_storage_size(set), whole = 0;
@@ -694,20 +694,20 @@ static enum percuss_status read_dataset_numbers(const struct body_file *file,
     if (!can_hold(file, layout, set))
         return body_file_refuse(file, "%s: claims more than the file holds: it is damaged",
                                 layout->name);
-    /* an array gets a place, never of 0 bytes and far from overflow */
+    /* an array, never of 0 bytes and far from overflow */
     void *data = layout->value;
     if (!data)
         data = *layout->array = calloc(numbers + 1, layout_size(layout->type));
     if (!data)
         return body_file_out_of_memory(file);
-    /* read as this machine's type */
+    /* HDF5 converts to this machine's type */
     hid_t type = type_open(layout->type);
     bool good = numbers == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
     H5Tclose(type);
     if (!good)
         return body_file_refuse(file, "%s: cannot be read: the file is damaged or cut short",
                                 layout->name);
-    /* numbers that the layout does not allow are refused */
+    /* refuse numbers outside the layout's range */
     if (!layout_holds(layout, data, numbers, &at))
         return body_file_refuse(file, "%s: number %zu is none that is allowed: must be %s",
                                 layout->name, at + 1, layout_allowed(layout->range));
@@ -750,7 +750,7 @@ static enum percuss_status read_layout(const struct body_file *file, struct mesh
             status = body_file_out_of_memory(file);
     }
     layout_flat_free(&flat);
-    /* where it comes from */
+    /* its origin */
     if (!status && !(read_attribute(file, "hash", body->hash, sizeof body->hash) &&
                      read_attribute(file, "source", body->source, sizeof body->source) &&
                      read_attribute(file, "supports", body->supports, sizeof body->supports)))
@@ -766,7 +766,7 @@ enum percuss_status body_file_read(const char *path, struct mesh_body **body, st
     enum percuss_status status = PERCUSS_OK;
     struct mesh_body *made = calloc(1, sizeof *made);
     *body = NULL;
-    /* closed with all that is open in it: a damaged file's parts may not close by themselves */
+    /* closing the file closes its objects, too: those of a damaged file may fail to close singly */
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     errno = 0;
@@ -780,7 +780,7 @@ enum percuss_status body_file_read(const char *path, struct mesh_body **body, st
         H5Fclose(file.id);
     }
     H5Pclose(access);
-    /* and makes sense as a whole */
+    /* check the body as a whole */
     struct fault inner = {{0}};
     if (!status && mesh_body_check(made, &inner))
         status = body_file_refuse(&file, "%s", inner.text);

@@ -128,7 +128,7 @@ static enum percuss_status builder_out_of_memory(const char *file, struct fault 
 static enum percuss_status make_index(const struct builder *builder, const char *file,
                                       struct index *index, struct fault *fault)
 {
-    /* labels with their places, sorted; no node is numbered yet */
+    /* sort labels with their places; no node is numbered yet */
     index->count = builder->node_count;
     index->labels = malloc((index->count + 1) * sizeof *index->labels);
     index->numbers = malloc((index->count + 1) * sizeof *index->numbers);
@@ -139,7 +139,7 @@ static enum percuss_status make_index(const struct builder *builder, const char 
         index->numbers[i] = SIZE_MAX;
     }
     qsort(index->labels, index->count, sizeof *index->labels, compare_labels);
-    /* a label that is there twice names neither node */
+    /* refuse a label of two nodes */
     for (size_t i = 1; i < index->count; i++)
         if (index->labels[i].label == index->labels[i - 1].label)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -148,7 +148,7 @@ static enum percuss_status make_index(const struct builder *builder, const char 
     return PERCUSS_OK;
 }
 
-/* no number for two elements; they may come in any order */
+/* refuses a label of two elements; they may come in any order */
 static enum percuss_status check_elements(const struct builder *builder, const char *file,
                                           struct fault *fault)
 {
@@ -196,12 +196,12 @@ static enum percuss_status place_elements(const struct builder *builder, const c
     for (size_t e = 0; e < builder->element_count; e++) {
         const struct builder_element *element = &builder->elements[e];
         size_t count = element_node_count(element->type);
-        /* what it is, as it stands in the file */
+        /* its type, part and label */
         mesh->types[e] = element->type;
         mesh->first[e] = element->first;
         mesh->parts[e] = element->part;
         mesh->element_labels[e] = element->label;
-        /* its nodes, by their numbers; a node that is met first gets the next */
+        /* its nodes by number; a new node gets the next one */
         for (size_t i = element->first; i < element->first + count; i++) {
             size_t at = builder_find(index, builder->connectivity.values[i]);
             if (at == SIZE_MAX)
@@ -259,7 +259,7 @@ static bool place_parts(const struct builder *builder, struct solid_mesh *mesh)
     return true;
 }
 
-/* nodes of elements, ascending and once each; sets without any are dropped */
+/* sets keep nodes of elements, ascending and once each; empty sets are dropped */
 static bool place_sets(const struct builder *builder, const struct index *index,
                        struct solid_mesh *mesh)
 {
@@ -280,7 +280,7 @@ static bool place_sets(const struct builder *builder, const struct index *index,
         for (size_t i = 0; i < count; i++)
             if (i == 0 || nodes[i] != nodes[i - 1])
                 nodes[set->count++] = nodes[i];
-        /* a set of none is dropped; else the mesh owns its nodes */
+        /* drop an empty set; the mesh owns the nodes of others */
         if (set->count == 0) {
             free(nodes);
             continue;
@@ -295,7 +295,7 @@ static bool place_sets(const struct builder *builder, const struct index *index,
 enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
                                    struct solid_mesh *mesh, struct fault *fault)
 {
-    /* a mesh has elements */
+    /* refuse a mesh without elements */
     struct index index = {0};
     memset(mesh, 0, sizeof *mesh);
     mesh->unit = unit;
@@ -305,7 +305,7 @@ enum percuss_status builder_finish(const struct builder *builder, const char *fi
                            "%s: no solid elements: must have 10-node tetrahedra, 20- or 27-node "
                            "hexahedra (does the file hold the surface only?)",
                            file);
-    /* each step stands on the one before; nodes are numbered by the elements that use them */
+    /* each step needs the one before; elements number the nodes that they use */
     if (status == PERCUSS_OK)
         status = make_index(builder, file, &index, fault);
     if (status == PERCUSS_OK)
@@ -318,7 +318,7 @@ enum percuss_status builder_finish(const struct builder *builder, const char *fi
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
         status = builder_out_of_memory(file, fault);
-    /* what was made of a mesh goes with the error */
+    /* an error frees the unfinished mesh */
     free(index.labels);
     free(index.numbers);
     if (status != PERCUSS_OK)

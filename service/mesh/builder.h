@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Collects what the file of a mesh says by the file's own numbers, and makes a solid_mesh of it. */
+/* Collects nodes, elements, parts and sets by the file's own labels, and makes a solid_mesh of
+ * them. */
 #ifndef PERCUSS_MESH_BUILDER_H
 #define PERCUSS_MESH_BUILDER_H
 
@@ -28,7 +29,7 @@ struct builder_set {
     struct builder_list labels; /* of nodes */
 };
 
-/* Zeroed to begin with. Whatever adds returns false when it is out of memory. */
+/* Zero it before use. Functions that add return false when out of memory. */
 struct builder {
     size_t node_count, node_room;
     struct builder_node *nodes;
@@ -49,14 +50,14 @@ bool builder_add_node(struct builder *builder, size_t label, const double point[
 bool builder_add_element(struct builder *builder, enum element_type type, size_t label, size_t part,
                          const size_t *nodes);
 
-/* The index of the part or set of a name, made where there is none; SIZE_MAX: out of memory. Names
- * that are too long are cut. */
+/* The index of the part or set of a name, made if there is none; SIZE_MAX: out of memory. Long
+ * names are cut. */
 size_t builder_part(struct builder *builder, const char *name);
 size_t builder_set(struct builder *builder, const char *name);
 
-/* Makes the mesh, lengths times `unit`; parts, sets and nodes that no element uses are dropped.
- * `file` begins messages. PERCUSS_BAD_REQUEST: no elements, labels that are there twice or not at
- * all, points that are no numbers. */
+/* Makes the mesh, lengths times `unit`; drops parts, sets and nodes that no element uses. `file`
+ * begins messages. PERCUSS_BAD_REQUEST: no elements, duplicate or missing labels, coordinates that
+ * are not finite. */
 enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
                                    struct solid_mesh *mesh, struct fault *fault);
 

@@ -90,7 +90,7 @@ void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
             bulk->largest_volume = fmax(bulk->largest_volume, volume);
         }
     }
-    /* to the centre of mass (Steiner) */
+    /* inertia about the centre of mass (Steiner) */
     scale3(1.0 / bulk->mass, bulk->centre, bulk->centre);
     double square = dot3(bulk->centre, bulk->centre);
     for (int i = 0; i < 3; i++)

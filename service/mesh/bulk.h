@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a mesh weighs: volume, mass, centre, inertia, by the elements' own quadrature. */
+/* Mass properties of a mesh: volume, mass, centre, inertia, by the elements' own quadrature. */
 #ifndef PERCUSS_MESH_BULK_H
 #define PERCUSS_MESH_BULK_H
 
@@ -13,11 +13,11 @@ struct bulk {
     double centre[3];    /* of mass, m, in the mesh's frame */
     double inertia[9];   /* about the centre of mass, kg m^2, row-major */
     double smallest_det; /* det J over its element's mean: 1 is an undistorted element, <= 0 none */
-    size_t smallest_at;  /* the element it is of */
+    size_t smallest_at;  /* its element */
     double smallest_volume, largest_volume; /* of one element, m^3 */
 };
 
-/* det J is looked at in the points of quadrature and in the nodes. */
+/* Evaluates det J in the points of quadrature and in the nodes. */
 void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk);
 
 /* The smallest det J of an element over its mean, and its volume. */

@@ -87,7 +87,7 @@ char *card_field(char **cursor)
     return *field == '\0' && !*cursor ? NULL : field;
 }
 
-bool card_label(const struct scan *scan, const char *what, const char *field, size_t *value)
+bool card_label(const struct scan *scan, const char *subject, const char *field, size_t *value)
 {
     char *end;
     errno = 0;
@@ -96,16 +96,16 @@ bool card_label(const struct scan *scan, const char *what, const char *field, si
         *value = number;
         return true;
     }
-    scan_refuse(scan, "%s: %.40s: must be a whole number > 0", what, field ? field : "nothing");
+    scan_refuse(scan, "%s: %.40s: must be a whole number > 0", subject, field ? field : "nothing");
     return false;
 }
 
-bool card_real(const struct scan *scan, const char *what, const char *field, double *value)
+bool card_real(const struct scan *scan, const char *subject, const char *field, double *value)
 {
     char *end;
     *value = field ? strtod(field, &end) : 0.0;
     if (field && end != field && *end == '\0')
         return true;
-    scan_refuse(scan, "%s: %.40s: must be a number", what, field ? field : "nothing");
+    scan_refuse(scan, "%s: %.40s: must be a number", subject, field ? field : "nothing");
     return false;
 }

@@ -17,21 +17,22 @@ struct card {
     } parameters[CARD_MOST_PARAMETERS];
 };
 
-/* The next line that is neither empty nor a comment, keyword lines that end with a comma together
- * with the next one. False: the file ends, or (with a message) the line is too long. */
+/* The next line that is neither empty nor a comment; joins a keyword line that ends with a comma
+ * and the next one. False: the file ends, or (with a message) the line is too long. */
 bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status *status);
 
-/* Takes a keyword line apart, destroying it. */
+/* Splits a keyword line into the card and overwrites it. */
 void card_parse(char *line, struct card *card);
 
-/* A parameter's value, "" where it has none; NULL: it is not there. */
+/* A parameter's value, "" without one; NULL: there is no such parameter. */
 const char *card_value(const struct card *card, const char *key);
 
 /* The next field of a line of data without white space around it; NULL: there is none. */
 char *card_field(char **cursor);
 
-/* Numbers in fields; false with a message naming `what`. An empty or missing field is refused. */
-bool card_label(const struct scan *scan, const char *what, const char *field, size_t *value);
-bool card_real(const struct scan *scan, const char *what, const char *field, double *value);
+/* Numbers in fields; false with a message that begins with `subject`. An empty or missing field is
+ * refused. */
+bool card_label(const struct scan *scan, const char *subject, const char *field, size_t *value);
+bool card_real(const struct scan *scan, const char *subject, const char *field, double *value);
 
 #endif

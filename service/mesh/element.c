@@ -8,7 +8,7 @@
 
 #include "model/vector.h"
 
-/* Corners at the ends of the mid nodes of a tetrahedron, nodes 4 to 9. */
+/* Corners at the ends of the edge of each mid node of a tetrahedron, nodes 4 to 9. */
 static const unsigned char TET_EDGES[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {3, 2}, {3, 1}};
 
 /* Natural coordinates of a hexahedron's nodes: corners, edges, faces, the middle. */
@@ -194,7 +194,7 @@ void element_map(size_t node_count, double (*points)[3], const double *shape, do
 void element_at(const struct element_rule *rule, size_t point, double (*points)[3],
                 struct element_point *result)
 {
-    /* the rule is borrowed for reading alone */
+    /* the rule is only read */
     element_map(rule->node_count, points, rule->shape[point], (double(*)[3])rule->gradient[point],
                 result);
     result->volume *= rule->weight[point];

@@ -22,11 +22,11 @@ struct element_rule {
     double gradient[ELEMENT_MOST_POINTS][ELEMENT_MOST_NODES][3]; /* natural */
 };
 
-/* What an element is like at one point in space. */
+/* Values of an element at one point. */
 struct element_point {
     double volume;                          /* det J, times the weight for a point of quadrature */
     double position[3];                     /* m */
-    double gradient[ELEMENT_MOST_NODES][3]; /* of the shape functions, 1/m; 0 where det J is */
+    double gradient[ELEMENT_MOST_NODES][3]; /* of the shape functions, 1/m; 0 where det J = 0 */
 };
 
 static inline size_t element_node_count(enum element_type type)

@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Arrays that grow while a file is read, whatever it says of its length. */
+/* Arrays that grow while a file is read, without trust in its stated counts. */
 #ifndef PERCUSS_MESH_GROW_H
 #define PERCUSS_MESH_GROW_H
 
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Room for one more element of `size` bytes after `count`, twice as much each time. False: out of
+/* Makes room for one more element of `size` bytes after `count`; doubles the array. False: out of
  * memory. */
 static inline bool grow_array(void **array, size_t count, size_t *room, size_t size)
 {

@@ -49,7 +49,7 @@ struct deck_faces {
     int face; /* 1 to 6 */
 };
 
-/* Zeroed to begin with. Whatever adds returns false or SIZE_MAX when it is out of memory. */
+/* Zero it before use. Functions that add return false or SIZE_MAX when out of memory. */
 struct deck {
     struct builder builder;
     size_t set_count, set_room;
@@ -65,7 +65,7 @@ struct deck {
     struct deck_faces *faces;
 };
 
-/* nothing solid is softer, stiffer, lighter or heavier: what is outside is in other units */
+/* no solid is softer, stiffer, lighter or heavier: values outside are in other units */
 static const double LEAST_YOUNG = 1e4, MOST_YOUNG = 5e12, LEAST_DENSITY = 5.0, MOST_DENSITY = 3e4;
 
 /* nodes of the faces S1 to S4, S1 to S6 in the order of Gmsh */
@@ -75,7 +75,7 @@ static const unsigned char HEX_FACES[6][8] = {
     {0, 1, 2, 3, 8, 11, 13, 9},   {4, 7, 6, 5, 17, 19, 18, 16}, {0, 4, 5, 1, 10, 16, 12, 8},
     {1, 5, 6, 2, 12, 18, 14, 11}, {2, 6, 7, 3, 14, 19, 15, 13}, {3, 7, 4, 0, 15, 17, 10, 9}};
 
-/* an element found by its label: a solid, or another one */
+/* an element by its label: a solid, or another one */
 struct place {
     size_t label, index;
     bool solid;
@@ -103,7 +103,7 @@ static size_t deck_find_node_set(const struct deck *deck, const char *name)
     return SIZE_MAX;
 }
 
-/* Found, or made where it is not there; SIZE_MAX: out of memory. */
+/* Found, or made if there is none; SIZE_MAX: out of memory. */
 static size_t deck_element_set(struct deck *deck, const char *name)
 {
     size_t found = deck_find_element_set(deck, name);
@@ -213,9 +213,9 @@ static enum percuss_status refuse_material(const struct deck_material *material,
         young ? LEAST_YOUNG : LEAST_DENSITY, young ? MOST_YOUNG : MOST_DENSITY);
 }
 
-/* stresses in N per square of the length; the unit of mass moves by 1 unit of length a second
- * faster each second under 1 N: 1 N s^2/unit. Slope of stress over total strain from the first two
- * rows of *PLASTIC, H = d stress/d plastic strain: E H/(E + H) */
+/* stresses in N per square of the length; the unit of mass is 1 N s^2/unit of length. The tangent,
+ * the slope of stress over total strain, from the first two rows of *PLASTIC with H = d stress/d
+ * plastic strain: E H/(E + H) */
 static enum percuss_status deck_convert_material(const struct deck_material *from, const char *file,
                                                  double unit, struct material *to,
                                                  struct fault *fault)
@@ -234,7 +234,7 @@ static enum percuss_status deck_convert_material(const struct deck_material *fro
             (from->stress[1] - from->stress[0]) / (from->strain[1] - from->strain[0]) * stress;
         to->tangent = hardening > 0.0 ? to->young * hardening / (to->young + hardening) : 0.0;
     }
-    /* limits that tell a wrong unit, in the words of the deck */
+    /* values outside these limits have a wrong unit; the message is in the deck's terms */
     if (!(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
         return refuse_material(from, file, "*ELASTIC", from->young, to->young, fault);
     if (!(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
@@ -247,7 +247,7 @@ static enum percuss_status deck_convert_material(const struct deck_material *fro
     return PERCUSS_OK;
 }
 
-/* a section's elements become a part of its name; `taken` holds which ones have a section */
+/* a section's elements become a part of its name; `taken` marks elements with a section */
 static enum percuss_status apply_section(struct deck *deck, const struct deck_section *section,
                                          const struct places *places, bool *taken, const char *file,
                                          double unit, struct fault *fault)
@@ -258,7 +258,7 @@ static enum percuss_status apply_section(struct deck *deck, const struct deck_se
     if (index == SIZE_MAX)
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
     struct mesh_part *part = &deck->builder.parts[index];
-    /* a material that says enough; else the command line must */
+    /* a complete material; the command line must state others */
     if (material->elastic && material->dense) {
         part->has_material = true;
         enum percuss_status status =
@@ -352,7 +352,7 @@ static bool name_faces(struct deck *deck, const struct places *places)
 }
 
 /* The mesh with parts by section, materials in SI, and sets of nodes. PERCUSS_BAD_REQUEST: an
- * element in two sections, materials that are none in these units. */
+ * element in two sections, materials outside the limits. */
 static enum percuss_status deck_finish(struct deck *deck, const char *file, double unit,
                                        struct solid_mesh *mesh, struct fault *fault)
 {
@@ -386,29 +386,29 @@ static void deck_free(struct deck *deck)
     memset(deck, 0, sizeof *deck);
 }
 
-/* ---- lines of data, whose kind the keyword before them sets ---- */
+/* ---- lines of data: the keyword before them sets their reader ---- */
 
 struct inp;
 typedef enum percuss_status inp_line_reader(struct inp *inp, char *line);
 
-/* Where reading is in the deck. */
+/* State of reading. */
 struct inp {
     struct scan *scan;
     struct deck deck;
-    inp_line_reader *read; /* lines of data after the last keyword; NULL: they do not matter */
+    inp_line_reader *read; /* reader of lines of data after the last keyword; NULL: skip them */
     int depth, parts, instances;
-    bool assembly, instance; /* within */
-    bool begun, done;        /* a keyword has come, a *STEP has */
+    bool assembly, instance; /* inside *ASSEMBLY, *INSTANCE */
+    bool begun, done;        /* after the first keyword; after *STEP */
     size_t set, material, part;
     bool generate, solid;
     enum element_type type;
-    size_t label, nodes[ELEMENT_MOST_NODES], filled; /* the element that is being read */
+    size_t label, nodes[ELEMENT_MOST_NODES], filled; /* the element under way */
 };
 
-/* *NSET, GENERATE makes no more: the file would be larger than this by far */
+/* limit of GENERATE: a file with that many labels would be huge */
 static const size_t MOST_GENERATED = 20000000;
 
-/* the deck's order of the nodes of an element, by Gmsh's: Abaqus Elements Reference, 28.1.4 */
+/* the deck's node of each node in Gmsh's order: Abaqus Elements Reference, 28.1.4 */
 static const unsigned char TET_ORDER[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 static const unsigned char HEX_ORDER[20] = {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
                                             16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
@@ -448,7 +448,7 @@ static enum percuss_status finish_solid(struct inp *inp)
                : inp_out_of_memory(inp);
 }
 
-/* a solid's nodes may go over several lines; another element is what stands on its line */
+/* a solid's nodes may take several lines; another element takes one */
 static enum percuss_status inp_read_element(struct inp *inp, char *line)
 {
     size_t most = inp->solid ? element_node_count(inp->type) : ELEMENT_MOST_NODES;
@@ -491,7 +491,7 @@ static enum percuss_status generate_labels(struct inp *inp, char *line, struct b
     return PERCUSS_OK;
 }
 
-/* labels, and names of sets whose labels are taken over */
+/* labels, and names of sets; adds the labels of those */
 static enum percuss_status read_set_labels(struct inp *inp, char *line, bool of_nodes)
 {
     struct deck *deck = &inp->deck;
@@ -508,14 +508,14 @@ static enum percuss_status read_set_labels(struct inp *inp, char *line, bool of_
                 return inp_out_of_memory(inp);
             continue;
         }
-        /* or the name of a set above; in an assembly, one that is not known is left out */
+        /* or the name of a set above; skip an unknown one in an assembly */
         size_t other =
             of_nodes ? deck_find_node_set(deck, field) : deck_find_element_set(deck, field);
         if (other == SIZE_MAX && !inp->assembly)
             return scan_refuse(inp->scan, "set: %.60s: must be the name of a set above", field);
         if (other == SIZE_MAX || other == inp->set)
             continue;
-        /* whose labels follow */
+        /* add its labels */
         const struct builder_list *from =
             of_nodes ? &deck->builder.sets[other].labels : &deck->sets[other].labels;
         for (size_t i = 0; i < from->count; i++)
@@ -537,7 +537,7 @@ static enum percuss_status inp_read_element_set(struct inp *inp, char *line)
                          : read_set_labels(inp, line, false);
 }
 
-/* an element or a set of them, S1 to S6 */
+/* an element or a set of elements, then S1 to S6 */
 static enum percuss_status inp_read_surface(struct inp *inp, char *line)
 {
     struct deck_faces faces = {.surface = inp->set, .set = SIZE_MAX};
@@ -555,7 +555,7 @@ static enum percuss_status inp_read_surface(struct inp *inp, char *line)
     return deck_add_faces(&inp->deck, &faces) ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
-/* the first row counts: at the lowest temperature */
+/* the first row, at the lowest temperature */
 static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
@@ -604,7 +604,7 @@ typedef enum percuss_status card_reader(struct inp *inp, const struct card *card
 
 static enum percuss_status read_deck(struct inp *inp, const char *path);
 
-/* a parameter that must be there; NULL after a message */
+/* a required parameter; NULL after a message */
 static const char *need(const struct inp *inp, const struct card *card, const char *key)
 {
     const char *value = card_value(card, key);
@@ -614,7 +614,7 @@ static const char *need(const struct inp *inp, const struct card *card, const ch
     return NULL;
 }
 
-/* what stands in an assembly beside its instance belongs to no body */
+/* in an assembly, statements outside its instance belong to no body */
 static bool is_outside(const struct inp *inp)
 {
     return inp->assembly && !inp->instance;
@@ -634,7 +634,7 @@ static enum percuss_status keyword_node(struct inp *inp, const struct card *card
     return PERCUSS_OK;
 }
 
-/* which solids are read, and which are refused and why; others only name nodes */
+/* takes or refuses a type of solid; other elements only name nodes */
 static enum percuss_status inp_check_type(struct inp *inp, const char *type)
 {
     static const char *const LINEAR[] = {"C3D4", "C3D5", "C3D6", "C3D8"};
@@ -703,7 +703,7 @@ static enum percuss_status keyword_element_set(struct inp *inp, const struct car
     return inp->set == SIZE_MAX ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
-/* of elements: faces; of nodes: a set like others */
+/* a surface of elements lists faces; one of nodes is a set of nodes */
 static enum percuss_status keyword_surface(struct inp *inp, const struct card *card)
 {
     const char *name = need(inp, card, "NAME"), *type = card_value(card, "TYPE");
@@ -751,8 +751,8 @@ static enum percuss_status keyword_section(struct inp *inp, const struct card *c
                : inp_out_of_memory(inp);
 }
 
-/* a file beside this one, in place of the line: its lines of data may belong to the keyword above
- */
+/* reads a file beside this one in place of the line; its first lines of data may belong to the
+ * keyword above */
 static enum percuss_status keyword_include(struct inp *inp, const struct card *card)
 {
     const char *name = need(inp, card, "INPUT");
@@ -761,7 +761,7 @@ static enum percuss_status keyword_include(struct inp *inp, const struct card *c
         return PERCUSS_BAD_REQUEST;
     if (inp->depth == INP_MOST_DEPTH)
         return scan_refuse(inp->scan, "*INCLUDE: must not be more than %d deep", INP_MOST_DEPTH);
-    inp_beside(inp->scan->file, name, path);
+    inp_include_path(inp->scan->file, name, path);
     struct scan *outer = inp->scan;
     inp->depth++;
     enum percuss_status status = read_deck(inp, path);
@@ -802,7 +802,7 @@ static enum percuss_status keyword_step(struct inp *inp, const struct card *card
     return PERCUSS_OK;
 }
 
-/* what makes nodes and elements by rule */
+/* keywords that generate nodes and elements */
 static enum percuss_status keyword_refuse(struct inp *inp, const struct card *card)
 {
     return scan_refuse(inp->scan,
@@ -831,7 +831,7 @@ static enum percuss_status read_card(struct inp *inp, char *line)
     struct card card;
     card_parse(line, &card);
     inp->begun = true;
-    /* lines of data go on in and after an included file */
+    /* lines of data may continue in and after an included file */
     if (strcmp(card.name, "INCLUDE") != 0) {
         if (inp->read == inp_read_element && inp->filled > 0)
             return scan_refuse(inp->scan, "*ELEMENT: %zu: has %zu nodes: must have more",
@@ -844,7 +844,7 @@ static enum percuss_status read_card(struct inp *inp, char *line)
     return PERCUSS_OK;
 }
 
-/* reads a file, the deck or one that it includes */
+/* reads the deck or a file that it includes */
 static enum percuss_status read_deck(struct inp *inp, const char *path)
 {
     struct scan scan;
@@ -883,7 +883,7 @@ enum percuss_status inp_read(const char *path, double unit, struct solid_mesh *m
     return status;
 }
 
-void inp_beside(const char *file, const char *name, char path[INP_PATH_SIZE])
+void inp_include_path(const char *file, const char *name, char path[INP_PATH_SIZE])
 {
     const char *slash = strrchr(file, '/');
     int folder = *name != '/' && slash ? (int)(slash + 1 - file) : 0;

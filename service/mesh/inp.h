@@ -15,7 +15,7 @@ enum { INP_MOST_DEPTH = 8, INP_PATH_SIZE = 1024 };
 enum percuss_status inp_read(const char *path, double unit, struct solid_mesh *mesh,
                              struct fault *fault);
 
-/* The path of a file that another one names by *INCLUDE. */
-void inp_beside(const char *file, const char *name, char path[INP_PATH_SIZE]);
+/* The path of a file that `file` names in *INCLUDE. */
+void inp_include_path(const char *file, const char *name, char path[INP_PATH_SIZE]);
 
 #endif

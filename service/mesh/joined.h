@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Things that hang together, as a forest in an array: each knows another one of its group or
- * itself, the first of the group. */
+/* Disjoint sets as a forest in an array: the parent of an item is another item of its set, or
+ * itself for the first of the set. */
 #ifndef PERCUSS_MESH_JOINED_H
 #define PERCUSS_MESH_JOINED_H
 
@@ -14,7 +14,7 @@ static inline void joined_begin(size_t *parent, size_t count)
         parent[i] = i;
 }
 
-/* The first one of all that are joined with it so far. */
+/* The first item of its set. */
 static inline size_t joined_root(size_t *parent, size_t i)
 {
     while (parent[i] != i)

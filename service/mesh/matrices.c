@@ -27,7 +27,8 @@ static int compare_sparse_entries(const void *left, const void *right)
     return a->column < b->column ? -1 : a->column > b->column;
 }
 
-/* The entries that count, turned to the upper triangle, sorted; returns how many. */
+/* Copies entries to the upper triangle (with `both` drops those below it) and sorts them; returns
+ * their number. */
 static size_t upper_entries(size_t count, const struct sparse_entry *entries, bool both,
                             struct sparse_entry *upper)
 {
@@ -56,7 +57,7 @@ bool sparse_from_entries(struct sparse *matrix, size_t n, size_t count,
     bool fine = upper && matrix->start && matrix->column && matrix->value;
     size_t filled = 0, kept = fine ? upper_entries(count, entries, both, upper) : 0;
     for (size_t e = 0; e < kept; e++) {
-        /* the same place again adds up */
+        /* add entries of the same place */
         if (e > 0 && compare_sparse_entries(&upper[e - 1], &upper[e]) == 0) {
             matrix->value[filled - 1] += upper[e].value;
             continue;
@@ -81,7 +82,7 @@ void sparse_multiply(const struct sparse *matrix, size_t count, const double *x,
         for (size_t i = 0; i < n; i++) {
             double sum = 0.0, here = x[i];
             size_t p = matrix->start[i], end = matrix->start[i + 1];
-            /* the diagonal once, anything else for both triangles */
+            /* the diagonal once, other entries for both triangles */
             if (p < end && matrix->column[p] == i)
                 sum = matrix->value[p++] * here;
             for (; p < end; p++) {
@@ -130,19 +131,19 @@ void sparse_free(struct sparse *matrix)
 
 /* ---- stiffness and mass ---- */
 
-/* Which nodes an element joins: of each node, those of its elements from itself on, ascending. */
-struct joints {
+/* Nodes that share an element: of each node, itself and those with higher numbers, ascending. */
+struct adjacency {
     size_t *start; /* [node_count + 1] */
     uint32_t *node;
 };
 
-static void joints_free(struct joints *joints)
+static void adjacency_free(struct adjacency *adjacency)
 {
-    free(joints->start);
-    free(joints->node);
+    free(adjacency->start);
+    free(adjacency->node);
 }
 
-/* Elements of each node: a list `element` that `start` cuts. */
+/* Elements of each node i: element[start[i]] to element[start[i + 1] - 1]. */
 static bool list_elements(const struct solid_mesh *mesh, size_t *start, size_t **element)
 {
     size_t total = mesh->first[mesh->element_count];
@@ -166,7 +167,8 @@ static int compare_nodes(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* The neighbours of one node, gathered in `found`, each once; `mark` says who is in. */
+/* Collects the neighbours of one node in `found`, each once; mark[] is node + 1 for collected
+ * ones. */
 static size_t gather_neighbours(const struct solid_mesh *mesh, uint32_t node,
                                 const size_t *elements, size_t count, uint32_t *mark,
                                 uint32_t *found)
@@ -184,30 +186,30 @@ static size_t gather_neighbours(const struct solid_mesh *mesh, uint32_t node,
     return total;
 }
 
-static bool joints_make(const struct solid_mesh *mesh, struct joints *joints)
+static bool adjacency_make(const struct solid_mesh *mesh, struct adjacency *adjacency)
 {
     size_t nodes = mesh->node_count, *element = NULL, room = 40 * nodes + 1000, filled = 0;
     size_t *of_node = malloc((nodes + 2) * sizeof *of_node);
     uint32_t *mark = calloc(nodes + 1, sizeof *mark);
     uint32_t *found = malloc((nodes + 1) * sizeof *found);
-    joints->start = calloc(nodes + 1, sizeof *joints->start);
-    joints->node = malloc(room * sizeof *joints->node);
-    bool fine = of_node && mark && found && joints->start && joints->node &&
+    adjacency->start = calloc(nodes + 1, sizeof *adjacency->start);
+    adjacency->node = malloc(room * sizeof *adjacency->node);
+    bool fine = of_node && mark && found && adjacency->start && adjacency->node &&
                 list_elements(mesh, of_node, &element);
     for (size_t i = 0; fine && i < nodes; i++) {
         size_t count = gather_neighbours(mesh, (uint32_t)i, element + of_node[i],
                                          of_node[i + 1] - of_node[i], mark, found);
-        /* more room where elements have many neighbours */
+        /* more room where nodes have many neighbours */
         if (filled + count > room) {
             room = 2 * (filled + count);
-            uint32_t *more = realloc(joints->node, room * sizeof *more);
+            uint32_t *more = realloc(adjacency->node, room * sizeof *more);
             fine = more != NULL;
-            joints->node = more ? more : joints->node;
+            adjacency->node = more ? more : adjacency->node;
         }
         if (fine)
-            memcpy(joints->node + filled, found, count * sizeof *found);
+            memcpy(adjacency->node + filled, found, count * sizeof *found);
         filled += fine ? count : 0;
-        joints->start[i + 1] = filled;
+        adjacency->start[i + 1] = filled;
     }
     free(of_node);
     free(mark);
@@ -216,33 +218,33 @@ static bool joints_make(const struct solid_mesh *mesh, struct joints *joints)
     return fine;
 }
 
-/* The place of `other` among the joints of `node`; it is there. */
-static size_t place_of(const struct joints *joints, size_t node, size_t other)
+/* The place of `other` among the neighbours of `node`, which have it. */
+static size_t place_of(const struct adjacency *adjacency, size_t node, size_t other)
 {
-    size_t low = joints->start[node], high = joints->start[node + 1] - 1;
+    size_t low = adjacency->start[node], high = adjacency->start[node + 1] - 1;
     while (low < high) {
         size_t middle = (low + high) / 2;
-        if (joints->node[middle] < other)
+        if (adjacency->node[middle] < other)
             low = middle + 1;
         else
             high = middle;
     }
-    return low - joints->start[node];
+    return low - adjacency->start[node];
 }
 
-/* Rows of three: all directions of a neighbour for the stiffness, its own for the mass, which joins
- * equal directions alone. */
-static bool lay_out_rows(const struct joints *joints, size_t nodes, struct matrices *matrices)
+/* Three rows a node: all directions of a neighbour for the stiffness, the same direction for the
+ * mass, which couples equal directions only. */
+static bool lay_out_rows(const struct adjacency *adjacency, size_t nodes, struct matrices *matrices)
 {
-    size_t pairs = joints->start[nodes];
+    size_t pairs = adjacency->start[nodes];
     if (!sparse_reserve(&matrices->stiffness, 3 * nodes, 9 * pairs - 3 * nodes) ||
         !sparse_reserve(&matrices->mass, 3 * nodes, 3 * pairs))
         return false;
     size_t filled = 0, massive = 0;
     for (size_t i = 0; i < nodes; i++)
         for (size_t k = 0; k < 3; k++) {
-            for (size_t p = joints->start[i]; p < joints->start[i + 1]; p++) {
-                uint32_t other = 3 * joints->node[p];
+            for (size_t p = adjacency->start[i]; p < adjacency->start[i + 1]; p++) {
+                uint32_t other = 3 * adjacency->node[p];
                 for (size_t m = other == 3 * i ? k : 0; m < 3; m++)
                     matrices->stiffness.column[filled++] = other + (uint32_t)m;
                 matrices->mass.column[massive++] = other + (uint32_t)k;
@@ -285,13 +287,12 @@ static void integrate_element(const struct element_rule *rule, double (*points)[
     }
 }
 
-/* Adds one pair of nodes, the first not above the second; `turned`: the block is of the other
- * order.
- */
-static void add_pair(const struct joints *joints, const size_t pair[2], const double block[9],
+/* Adds one pair of nodes, the first not above the second; `turned`: the block has the other
+ * order. */
+static void add_pair(const struct adjacency *adjacency, const size_t pair[2], const double block[9],
                      bool turned, struct sparse *stiffness)
 {
-    size_t place = place_of(joints, pair[0], pair[1]);
+    size_t place = place_of(adjacency, pair[0], pair[1]);
     for (size_t i = 0; i < 3; i++) {
         double *row = stiffness->value + stiffness->start[3 * pair[0] + i];
         for (size_t j = place == 0 ? i : 0; j < 3; j++)
@@ -299,15 +300,16 @@ static void add_pair(const struct joints *joints, const size_t pair[2], const do
     }
 }
 
-static void add_element_matrices(const struct joints *joints, const size_t *nodes, size_t count,
-                                 const struct element_matrices *element, struct matrices *matrices)
+static void add_element_matrices(const struct adjacency *adjacency, const size_t *nodes,
+                                 size_t count, const struct element_matrices *element,
+                                 struct matrices *matrices)
 {
     for (size_t a = 0; a < count; a++)
         for (size_t b = a; b < count; b++) {
             bool turned = nodes[a] > nodes[b];
             size_t pair[2] = {nodes[turned ? b : a], nodes[turned ? a : b]};
-            add_pair(joints, pair, element->stiffness[a][b], turned, &matrices->stiffness);
-            size_t place = place_of(joints, pair[0], pair[1]);
+            add_pair(adjacency, pair, element->stiffness[a][b], turned, &matrices->stiffness);
+            size_t place = place_of(adjacency, pair[0], pair[1]);
             for (size_t k = 0; k < 3; k++)
                 matrices->mass.value[matrices->mass.start[3 * pair[0] + k] + place] +=
                     element->mass[a][b];
@@ -315,7 +317,7 @@ static void add_element_matrices(const struct joints *joints, const size_t *node
 }
 
 static void add_type(const struct solid_mesh *mesh, enum element_type type,
-                     const struct joints *joints, struct element_matrices *element,
+                     const struct adjacency *adjacency, struct element_matrices *element,
                      struct matrices *matrices)
 {
     struct element_rule rule;
@@ -326,12 +328,12 @@ static void add_type(const struct solid_mesh *mesh, enum element_type type,
         double points[ELEMENT_MOST_NODES][3];
         element_points(mesh, e, points);
         integrate_element(&rule, points, &mesh->part[mesh->parts[e]].material, element);
-        add_element_matrices(joints, mesh->nodes + mesh->first[e], rule.node_count, element,
+        add_element_matrices(adjacency, mesh->nodes + mesh->first[e], rule.node_count, element,
                              matrices);
     }
 }
 
-/* Numbers of rows are 32 bits wide, and MUMPS counts with a sign. */
+/* Row numbers have 32 bits, and MUMPS counts in signed integers. */
 static const size_t MOST_NODES = 700000000;
 
 static enum percuss_status check_nodes(const struct solid_mesh *mesh, struct fault *fault)
@@ -361,18 +363,18 @@ enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices
     enum percuss_status status = check_nodes(mesh, fault);
     if (status)
         return status;
-    struct joints joints = {0};
+    struct adjacency adjacency = {0};
     struct element_matrices *element = malloc(sizeof *element);
-    if (element && joints_make(mesh, &joints) &&
-        lay_out_rows(&joints, mesh->node_count, matrices)) {
-        add_type(mesh, ELEMENT_TET10, &joints, element, matrices);
-        add_type(mesh, ELEMENT_HEX20, &joints, element, matrices);
-        add_type(mesh, ELEMENT_HEX27, &joints, element, matrices);
+    if (element && adjacency_make(mesh, &adjacency) &&
+        lay_out_rows(&adjacency, mesh->node_count, matrices)) {
+        add_type(mesh, ELEMENT_TET10, &adjacency, element, matrices);
+        add_type(mesh, ELEMENT_HEX20, &adjacency, element, matrices);
+        add_type(mesh, ELEMENT_HEX27, &adjacency, element, matrices);
     } else {
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         matrices_free(matrices);
     }
-    joints_free(&joints);
+    adjacency_free(&adjacency);
     free(element);
     return status;
 }

@@ -20,8 +20,8 @@ struct sparse {
     double *value;
 };
 
-/* Entries anywhere in the matrix, in any order, as files list them: of (i, j) and (j, i) one, or
- * both with `both` set, each then equal. Entries of one place add up. False: no memory. */
+/* Entries anywhere in the matrix, in any order, as files list them: one of (i, j) and (j, i), or
+ * both, equal, with `both` set. Entries of one place add up. False: no memory. */
 struct sparse_entry {
     uint32_t row, column;
     double value;
@@ -35,8 +35,8 @@ void sparse_multiply(const struct sparse *matrix, size_t count, const double *x,
 /* y^T A x */
 double sparse_product(const struct sparse *matrix, const double *x, const double *y);
 
-/* Takes the rows and columns of held degrees of freedom out, but for the diagonal where
- * `keep_diagonal`: what remains solves for zero there when the right-hand side is. */
+/* Removes the rows and columns of held degrees of freedom, except the diagonal with
+ * `keep_diagonal`: a solution is zero there if the right-hand side is. */
 void sparse_hold(struct sparse *matrix, const bool *held, bool keep_diagonal);
 
 void sparse_free(struct sparse *matrix);
@@ -44,10 +44,10 @@ void sparse_free(struct sparse *matrix);
 /* ---- stiffness and mass ---- */
 
 struct matrices {
-    struct sparse stiffness, mass; /* N/m, kg; held degrees of freedom have only a stiffness, their
-                                    * own: see sparse_hold */
+    struct sparse stiffness, mass; /* N/m, kg; held degrees of freedom have only their diagonal of
+                                      the stiffness: see sparse_hold */
     bool *held;                    /* [3 node_count]; NULL: none is */
-    const struct solid_mesh *mesh; /* borrowed: what they were made of; NULL: of a file */
+    const struct solid_mesh *mesh; /* borrowed: their mesh; NULL: read from a file */
 };
 
 /* Linear elastic, each part of its material. PERCUSS_BAD_REQUEST: a node belongs to no element, or

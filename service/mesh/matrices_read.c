@@ -13,9 +13,9 @@
 #include "mesh/scan.h"
 
 enum { LINE_SIZE = 256 };
-/* entries above and below the diagonal agree in more digits than any file has */
+/* largest relative difference of a symmetric matrix: more digits than any file has */
 static const double ASYMMETRY = 1e-8;
-/* a body moves with the same mass in all directions; files have at least 6 digits */
+/* a body has the same mass in all directions; files have at least 6 digits */
 static const double SAME_MASS = 1e-4;
 static const uint32_t NO_ROW = UINT32_MAX;
 
@@ -24,7 +24,7 @@ struct label {
     size_t label, node;
 };
 
-/* which degree of freedom of the mesh a row is */
+/* the mesh's degree of freedom of each row */
 struct freedoms {
     size_t count, room;
     uint32_t *of_row;
@@ -33,7 +33,7 @@ struct freedoms {
 struct entries {
     size_t count, room;
     struct sparse_entry *list;
-    bool both; /* triangles */
+    bool both; /* both triangles */
 };
 
 static int matrices_compare_labels(const void *left, const void *right)
@@ -137,7 +137,7 @@ static bool at_end(const struct scan *scan)
     return scan->text[scan->at + strspn(scan->text + scan->at, " \t\r\n")] == '\0';
 }
 
-/* rows in their place in the mesh, values times `factor` */
+/* entries by the mesh's degrees of freedom, values times `factor` */
 static enum percuss_status read_entries(struct scan *scan, const struct freedoms *freedoms,
                                         double factor, struct entries *entries)
 {
@@ -161,14 +161,14 @@ static enum percuss_status read_entries(struct scan *scan, const struct freedoms
     return PERCUSS_OK;
 }
 
-/* a number of either sign from a row's, the same each time */
+/* a number of either sign, the same for each call with that row */
 static double pseudo_random(uint32_t row, double step)
 {
     double x = row * step;
     return x - floor(x) - 0.5;
 }
 
-/* x^T A y and y^T A x differ where A is not symmetric, but for chance */
+/* x^T A y and y^T A x with pseudo-random x, y differ where A is not symmetric */
 static enum percuss_status check_symmetry(const struct scan *scan, const struct entries *entries)
 {
     double difference = 0.0, sum = 0.0;
@@ -187,7 +187,7 @@ static enum percuss_status check_symmetry(const struct scan *scan, const struct 
                      scan->file);
 }
 
-/* held degrees of freedom get a stiffness of their own, as large as others */
+/* held degrees of freedom get a diagonal stiffness, as large as others */
 static bool add_held(const struct solid_mesh *mesh, const bool *held, struct entries *entries)
 {
     double largest = 1.0;
@@ -203,7 +203,7 @@ static bool add_held(const struct solid_mesh *mesh, const bool *held, struct ent
     return true;
 }
 
-/* `held`: NULL, or what gets a diagonal */
+/* `held`: degrees of freedom that get a diagonal, or NULL */
 static enum percuss_status read_matrix(const char *path, const struct freedoms *freedoms,
                                        const struct solid_mesh *mesh, const bool *held,
                                        struct sparse *matrix, struct fault *fault)
@@ -214,7 +214,7 @@ static enum percuss_status read_matrix(const char *path, const struct freedoms *
     enum percuss_status status = scan_open(path, &scan, fault);
     if (status == PERCUSS_OK && dot && strcasecmp(dot, ".mtx") == 0)
         status = read_market_header(&scan, freedoms->count, &entries.both);
-    /* N per unit and the mass that 1 N moves by a unit a second faster each second: both 1/unit */
+    /* stiffness in N/unit, mass in N s^2/unit: both times 1/unit */
     if (status == PERCUSS_OK)
         status = read_entries(&scan, freedoms, 1.0 / mesh->unit, &entries);
     if (status == PERCUSS_OK && entries.both)
@@ -229,7 +229,7 @@ static enum percuss_status read_matrix(const char *path, const struct freedoms *
     return status;
 }
 
-/* marks what no row moves; refuses what two rows do */
+/* marks degrees of freedom without a row as held; refuses those of two rows */
 static enum percuss_status find_held(const struct freedoms *freedoms, const char *file,
                                      const struct solid_mesh *mesh, struct matrices *matrices,
                                      struct fault *fault)
@@ -254,7 +254,7 @@ static enum percuss_status find_held(const struct freedoms *freedoms, const char
     return PERCUSS_OK;
 }
 
-/* a free body has one mass, whichever way it moves: else rows are not what they are said to be */
+/* a free body has one mass in all directions: otherwise rows and degrees of freedom do not match */
 static enum percuss_status check_mass(const struct matrices *matrices, const char *file,
                                       struct fault *fault)
 {
@@ -278,14 +278,14 @@ static enum percuss_status check_mass(const struct matrices *matrices, const cha
                      file, mass[0], mass[1], mass[2]);
 }
 
-/* a row that nothing was read of is not held by anything, or moves without mass */
+/* a row without a diagonal has no stiffness, or no mass */
 static enum percuss_status check_diagonal(const struct sparse *matrix,
                                           const struct freedoms *freedoms, const char *file,
                                           const struct solid_mesh *mesh, struct fault *fault)
 {
     for (size_t row = 0; row < freedoms->count; row++) {
         uint32_t at = freedoms->of_row[row];
-        /* columns ascend from the diagonal on */
+        /* the diagonal comes first in its row */
         size_t first = matrix->start[at];
         bool there = first < matrix->start[at + 1] && matrix->column[first] == at;
         if (!there || !(matrix->value[first] > 0.0))
@@ -302,11 +302,11 @@ enum percuss_status matrices_read(const struct matrices_files *files, const stru
                                   struct matrices *matrices, struct fault *fault)
 {
     memset(matrices, 0, sizeof *matrices);
-    /* rows are numbered in 32 bits */
+    /* row numbers have 32 bits */
     if (mesh->node_count >= NO_ROW / 3)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "nodes: %zu: must be fewer than %u",
                          mesh->node_count, NO_ROW / 3);
-    /* which row is which freedom, by the labels of the nodes */
+    /* degrees of freedom of the rows, by the labels of the nodes */
     const char *map = files->freedoms ? files->freedoms : files->mass;
     struct freedoms freedoms = {0};
     struct label *labels = sort_labels(mesh);
@@ -316,13 +316,13 @@ enum percuss_status matrices_read(const struct matrices_files *files, const stru
     /* freedoms without a row are held */
     if (status == PERCUSS_OK)
         status = find_held(&freedoms, map, mesh, matrices, fault);
-    /* held freedoms are stiff, and have no mass */
+    /* held freedoms get a stiffness and no mass */
     if (status == PERCUSS_OK)
         status = read_matrix(files->stiffness, &freedoms, mesh, matrices->held,
                              &matrices->stiffness, fault);
     if (status == PERCUSS_OK)
         status = read_matrix(files->mass, &freedoms, mesh, NULL, &matrices->mass, fault);
-    /* each row is there, and all that moves has one mass */
+    /* check that each row is there, and that the body has one mass */
     if (status == PERCUSS_OK)
         status = check_diagonal(&matrices->stiffness, &freedoms, files->stiffness, mesh, fault);
     if (status == PERCUSS_OK)

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Stiffness and mass that another program has assembled. */
+/* Stiffness and mass assembled by another program. */
 #ifndef PERCUSS_MESH_MATRICES_READ_H
 #define PERCUSS_MESH_MATRICES_READ_H
 
@@ -14,8 +14,8 @@ struct matrices_files {
                                    * nodes by number, directions 1 to 3 each */
 };
 
-/* Reads what belongs to `mesh`, a file of the same nodes in the same units (N, s, its length).
- * Directions that no row has are held. PERCUSS_BAD_REQUEST: they do not fit the mesh, are not
+/* Reads the matrices of `mesh`, a file of the same nodes in the same units (N, s, its length).
+ * Directions without a row are held. PERCUSS_BAD_REQUEST: they do not fit the mesh, are not
  * symmetric, or have no mass of a body. */
 enum percuss_status matrices_read(const struct matrices_files *files, const struct solid_mesh *mesh,
                                   struct matrices *matrices, struct fault *fault);

@@ -16,11 +16,11 @@
 
 /* nodes nearer than this part of an edge are one place */
 static const double SAME_PLACE = 1e-5;
-/* a direction in which no plane of a mesh is likely to lie: nodes sorted along it are well apart */
+/* a direction that is normal to hardly any plane of a mesh: nodes sorted along it are well apart */
 static const double SORTING[3] = {0.61803398874989485, 0.54030230586813977, 0.57107655817564230};
 /* elements below this are worth a remark: .2 is common in meshes of Gmsh */
 static const double POOR_JACOBIAN = 0.05;
-/* bodies of such sizes are rare, and wrong units common, m */
+/* m: bodies beyond these sizes are rare, and wrong units common */
 static const double SMALLEST_BODY = 1e-3, LARGEST_BODY = 20.0;
 /* faces that turn by more than 50 degrees: normals and curvatures are poor */
 static const double COARSE_COSINE = 0.64278760968653933;
@@ -50,7 +50,7 @@ static enum percuss_status check_shapes(const struct solid_mesh *mesh,
     size_t bad = 0, first = 0, reversed = 0;
     double volume, first_ratio = 0.0;
     findings->least_jacobian = INFINITY;
-    /* the least det J of its mean, the volume, and the first element that is bad */
+    /* the least det J over its mean, the volume, and the first bad element */
     for (size_t e = 0; e < mesh->element_count; e++) {
         double ratio = bulk_element_det(mesh, e, &volume);
         bool inside_out = !(ratio > 0.0) || !(volume > 0.0);
@@ -95,7 +95,7 @@ static int compare_along(const void *left, const void *right)
     return a->node < b->node ? -1 : a->node > b->node;
 }
 
-/* pairs of nodes in one place: the body is cut there */
+/* refuses pairs of nodes in one place: the body is cut there */
 static enum percuss_status check_same_places(const struct solid_mesh *mesh, double size,
                                              struct fault *fault)
 {
@@ -128,7 +128,7 @@ static enum percuss_status check_same_places(const struct solid_mesh *mesh, doub
                      pairs, one, other);
 }
 
-/* elements of other pieces than that of the first one, in `parent`; the first of them */
+/* counts elements outside the first one's piece, in `parent`; *example is the first of them */
 static size_t count_apart(size_t *parent, size_t count, size_t *example)
 {
     size_t apart = 0, whole = joined_root(parent, 0);
@@ -138,7 +138,7 @@ static size_t count_apart(size_t *parent, size_t count, size_t *example)
     return apart;
 }
 
-/* the first element of each node, or of all that share nodes, is joined with the others */
+/* joins elements that share a node */
 static bool join_by_nodes(const struct solid_mesh *mesh, size_t *parent)
 {
     size_t *owner = malloc((mesh->node_count + 1) * sizeof *owner);
@@ -158,13 +158,13 @@ static bool join_by_nodes(const struct solid_mesh *mesh, size_t *parent)
     return true;
 }
 
-/* elements that share no node are two bodies; those that share an edge or a corner alone turn about
+/* elements that share no node are two bodies; those that share only an edge or a corner turn about
  * it */
 static enum percuss_status refuse_pieces(const struct solid_mesh *mesh, size_t *parent,
                                          struct fault *fault)
 {
     size_t pieces = 0, apart = 0, count = mesh->element_count, example = 0;
-    /* a hinge: all hang together by nodes */
+    /* a hinge: all are joined by nodes */
     size_t hinged = count_apart(parent, count, &example);
     size_t label = mesh->element_labels[example];
     if (hinged > 0 && !join_by_nodes(mesh, parent))
@@ -177,7 +177,7 @@ static enum percuss_status refuse_pieces(const struct solid_mesh *mesh, size_t *
                          hinged, label, count - hinged);
     if (apart == 0)
         return PERCUSS_OK;
-    /* pieces by themselves */
+    /* separate pieces */
     for (size_t e = 0; e < count; e++)
         pieces += parent[e] == e;
     return fault_set(
@@ -188,7 +188,7 @@ static enum percuss_status refuse_pieces(const struct solid_mesh *mesh, size_t *
         pieces, apart, mesh->element_labels[example], count - apart);
 }
 
-/* elements that hang together by shared faces are one piece */
+/* elements joined by faces are one piece */
 static enum percuss_status check_pieces(const struct solid_mesh *mesh, struct fault *fault)
 {
     size_t *parent = malloc(mesh->element_count * sizeof *parent);
@@ -230,7 +230,7 @@ static double turn_cosine(const struct surface_face *face, const struct surface_
     return least;
 }
 
-/* how the surface is cut */
+/* remarks on coarse or straight-sided faces */
 static void check_surface(const struct surface *surface, struct mesh_findings *findings)
 {
     size_t coarse = 0;

@@ -26,11 +26,11 @@ static const struct {
 } UNITS[] = {{"m", "M", 1.0},    {"cm", "CM", 0.01},     {"mm", "MM", 0.001},
              {"um", "UM", 1e-6}, {"in", "INCH", 0.0254}, {"ft", "FT", 0.3048}};
 
-/* ---- Gmsh as a process, which makes a mesh of a geometry or reads formats that we do not ---- */
+/* ---- Gmsh as a process: it meshes a geometry or converts formats that we do not read ---- */
 
 enum { GMSH_PATH_SIZE = 256 };
 
-/* A mesh in a folder of its own, both to be deleted with gmsh_forget. */
+/* A mesh in a temporary folder; gmsh_forget deletes both. */
 struct gmsh_file {
     char folder[GMSH_PATH_SIZE], mesh[GMSH_PATH_SIZE + 16], log[GMSH_PATH_SIZE + 16],
         script[GMSH_PATH_SIZE + 16];
@@ -38,12 +38,12 @@ struct gmsh_file {
 
 enum gmsh_task {
     GMSH_CONVERT, /* the file holds a mesh */
-    GMSH_MESH,    /* it holds a geometry: tetrahedra of second order */
-    GMSH_FILL     /* it holds triangles of a surface: the same within them */
+    GMSH_MESH,    /* it holds a geometry: mesh it with tetrahedra of second order */
+    GMSH_FILL     /* it holds triangles of a surface: the same inside */
 };
 
 enum { MOST_ARGUMENTS = 40, ARGUMENT_SIZE = 32, LOG_SHOWN = 400 };
-/* what the shell of old says where there is no such program: some posix_spawn do so too */
+/* the exit code of shells, and of some posix_spawn, where there is no such program */
 static const int NOT_FOUND = 127;
 
 /* triangles that meet at less than 40 degrees are one surface (Gmsh's tutorial 13) */
@@ -96,7 +96,7 @@ static enum percuss_status make_gmsh_folder(struct gmsh_file *file, struct fault
     return PERCUSS_OK;
 }
 
-/* the script that fills a surface; names of files stand in quotes there */
+/* writes the script that fills a surface; it quotes the file's name */
 static enum percuss_status write_script(const char *path, const struct gmsh_file *file,
                                         struct fault *fault)
 {
@@ -117,7 +117,7 @@ static enum percuss_status write_script(const char *path, const struct gmsh_file
     return status;
 }
 
-/* copies the last lines of what gmsh said, in one line */
+/* joins the last errors and warnings of gmsh's log in one line */
 static void last_messages(const struct gmsh_file *file, char messages[LOG_SHOWN])
 {
     FILE *stream = fopen(file->log, "r");
@@ -130,7 +130,7 @@ static void last_messages(const struct gmsh_file *file, char messages[LOG_SHOWN]
         line[strcspn(line, "\n")] = '\0';
         if (strncmp(line, "Error", 5) != 0 && strncmp(line, "Warning", 7) != 0)
             continue;
-        /* under a rule it counts what it has said */
+        /* under a rule it counts its messages */
         if (strstr(line, ": -----"))
             break;
         size_t length = strlen(line);
@@ -144,7 +144,7 @@ static void last_messages(const struct gmsh_file *file, char messages[LOG_SHOWN]
     fclose(stream);
 }
 
-/* starts the program, its output into the log, and waits; -1: there is no such program */
+/* starts the program with its output in the log, and waits; -1: there is no such program */
 static int run_gmsh(const struct arguments *arguments, const struct gmsh_file *file)
 {
     posix_spawn_file_actions_t actions;
@@ -178,8 +178,8 @@ static void fill_arguments(const char *path, enum gmsh_task task, double unit, c
         add_argument(arguments, "-order");
         add_argument(arguments, "2");
     }
-    /* triangles know no curvature: straight edges then. Else ten elements about a full turn (edges
-     * of .6 of a radius), and curved ones are kept from turning inside out */
+    /* triangles have no curvature: straight edges. A geometry: ten elements about a full turn
+     * (edges of .6 of a radius), and optimised curved elements, so that none is inverted */
     if (task == GMSH_FILL)
         add_number(arguments, "Mesh.SecondOrderLinear", "1");
     if (task == GMSH_MESH) {
@@ -205,9 +205,9 @@ static void fill_arguments(const char *path, enum gmsh_task task, double unit, c
     add_argument(arguments, file->mesh);
 }
 
-/* Runs gmsh on `path`. Geometries that know their unit come out in `unit` (m); elements are at most
- * `size` of these units (0: as Gmsh thinks best). PERCUSS_BAD_REQUEST: there is no gmsh, or it
- * fails, with its last words. */
+/* Runs gmsh on `path`. Converts geometries with a unit to `unit` (m); elements are at most `size`
+ * of these units (0: Gmsh's default). PERCUSS_BAD_REQUEST: there is no gmsh, or it fails, with its
+ * last messages. */
 static enum percuss_status gmsh_run(const char *path, enum gmsh_task task, double unit, double size,
                                     struct gmsh_file *file, struct fault *fault)
 {
@@ -222,7 +222,7 @@ static enum percuss_status gmsh_run(const char *path, enum gmsh_task task, doubl
     if (status != PERCUSS_OK)
         return status;
 
-    /* a name that begins with a dash is no option */
+    /* gmsh would take a name that begins with a dash for an option */
     snprintf(safe, sizeof safe, "%s%s", path[0] == '-' ? "./" : "", path);
     if (size > 0.0)
         snprintf(limit, sizeof limit, "%.9g", size);
@@ -253,7 +253,7 @@ static void gmsh_forget(const struct gmsh_file *file)
 
 /* ---- reading ---- */
 
-/* formats that Gmsh reads, and what it is to do with them */
+/* formats for Gmsh, each with its task */
 static const struct {
     const char *suffix;
     enum gmsh_task task;
@@ -313,37 +313,36 @@ enum percuss_status mesh_read(const char *path, const struct mesh_options *optio
         path);
 }
 
-/* ---- digest ---- */
+/* ---- digest of a mesh's files ---- */
 
 struct digest_walk {
     struct sha256 *hash;
-    bool deck; /* its lines are looked at */
+    bool deck; /* follow its *INCLUDE lines */
     int depth;
-    bool done; /* a *STEP has come: nothing is read beyond it */
+    bool done; /* after *STEP: the reader stops there */
 };
 
 static enum percuss_status digest_add_file(struct digest_walk *digest, const char *path,
                                            struct fault *fault);
 
-/* Goes where a keyword line leads to. */
+/* Follows *INCLUDE, and stops at *STEP. */
 static enum percuss_status digest_follow(struct digest_walk *digest, struct scan *scan, char *line)
 {
     struct card card;
     char path[INP_PATH_SIZE];
-    /* a keyword that leads anywhere */
     card_parse(line, &card);
     if (strcmp(card.name, "STEP") == 0)
         digest->done = true;
     const char *name = strcmp(card.name, "INCLUDE") == 0 ? card_value(&card, "INPUT") : NULL;
     if (!name || !*name)
         return PERCUSS_OK;
-    /* the reader refuses this, and reads no further */
+    /* the reader refuses deeper files */
     if (digest->depth == INP_MOST_DEPTH) {
         digest->done = true;
         return PERCUSS_OK;
     }
     /* the file beside this one */
-    inp_beside(scan->file, name, path);
+    inp_include_path(scan->file, name, path);
     digest->depth++;
     enum percuss_status status = digest_add_file(digest, path, scan->fault);
     digest->depth--;
@@ -358,7 +357,7 @@ static enum percuss_status digest_add_file(struct digest_walk *digest, const cha
     enum percuss_status status = scan_open(path, &scan, fault), refused;
     if (status)
         return status;
-    /* where an included file ends, which its bytes do not tell */
+    /* the size shows where an included file ends */
     uint64_t size = scan.size;
     if (digest->depth > 0)
         sha256_add(digest->hash, &size, sizeof size);

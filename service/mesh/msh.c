@@ -82,7 +82,7 @@ static void msh_groups_free(struct msh_groups *groups)
 
 enum { LINE_SIZE = 256, MOST_ENTITY_TAGS = 4 };
 
-/* Gmsh's numbers of types of elements; 0 nodes: not known */
+/* Gmsh's numbers of types of elements; 0 nodes: unknown */
 enum { MSH_TET4 = 4, MSH_HEX8 = 5, MSH_TET10 = 11, MSH_HEX27 = 12, MSH_HEX20 = 17 };
 static const struct {
     unsigned char nodes, dimension;
@@ -108,7 +108,7 @@ static const struct {
              {15, 3, "15-node prism"},
              {13, 3, "13-node pyramid"}};
 
-/* what has been read */
+/* state of reading */
 struct msh {
     struct scan scan;
     struct builder builder;
@@ -175,14 +175,14 @@ static enum percuss_status read_names(struct msh *msh)
     return PERCUSS_OK;
 }
 
-/* one point, curve, surface or volume: its box, its physical groups, what bounds it */
+/* one point, curve, surface or volume: its box, its physical groups, its boundary */
 static enum percuss_status read_entity(struct msh *msh, int dimension)
 {
     struct scan *scan = &msh->scan;
     int entity, tag;
     double box;
     size_t count;
-    /* its number, and its box, which is not needed */
+    /* its number; its box is not used */
     if (!scan_integer(scan, "entity", &entity))
         return PERCUSS_BAD_REQUEST;
     for (int i = 0; i < (dimension == 0 ? 3 : 6); i++)
@@ -197,7 +197,7 @@ static enum percuss_status read_entity(struct msh *msh, int dimension)
         if (!msh_groups_join(&msh->groups, (struct msh_member){dimension, entity, tag}))
             return msh_out_of_memory(msh);
     }
-    /* what bounds it is not needed; a point has none */
+    /* its boundary is not used; a point has none */
     if (dimension == 0)
         return PERCUSS_OK;
     if (!scan_count(scan, "entity's boundary", &count))
@@ -230,7 +230,7 @@ static enum percuss_status read_node_block(struct msh *msh)
     struct builder *builder = &msh->builder;
     int dimension, entity, parametric;
     size_t count, label, first = builder->node_count;
-    /* of what entity, and how many */
+    /* its entity and their number */
     if (!scan_integer(scan, "dimension", &dimension) || !scan_integer(scan, "entity", &entity) ||
         !scan_integer(scan, "parametric", &parametric) ||
         !scan_count(scan, "nodes of a block", &count))
@@ -244,7 +244,7 @@ static enum percuss_status read_node_block(struct msh *msh)
         if (!builder_add_node(builder, label, (double[3]){0.0, 0.0, 0.0}))
             return msh_out_of_memory(msh);
     }
-    /* then all points, with the parameters on a curve or surface, which are not needed */
+    /* then all points; parameters on a curve or surface are not used */
     for (size_t i = 0; i < count; i++) {
         double parameter, *point = builder->nodes[first + i].point;
         for (int k = 0; k < 3; k++)
@@ -324,7 +324,7 @@ static enum percuss_status read_elements_of(struct msh *msh, int type, int entit
         return msh_out_of_memory(msh);
     if (!solid && find_sets(msh, TYPES[type].dimension, entity, sets, &set_count) != PERCUSS_OK)
         return PERCUSS_INTERNAL;
-    /* each in the order of Gmsh, which the builder knows by type */
+    /* each in Gmsh's order of nodes, which is the builder's */
     for (size_t i = 0; i < count; i++) {
         if (!scan_size(scan, "number of an element", &label))
             return PERCUSS_BAD_REQUEST;
@@ -369,7 +369,7 @@ static enum percuss_status read_blocks(struct msh *msh,
     return status;
 }
 
-/* goes beyond "$End..." of the section `name` ("$Nodes") */
+/* skips "$End..." of the section `name` ("$Nodes") */
 static enum percuss_status end_section(struct scan *scan, const char *name)
 {
     char end[LINE_SIZE + 4], line[LINE_SIZE];

@@ -13,7 +13,7 @@
 enum percuss_status msh_read(const char *path, const char *file, double unit,
                              struct solid_mesh *mesh, struct fault *fault);
 
-/* Whether a file is one of version 4.1; other versions are for Gmsh to read. */
+/* Whether a file is one of version 4.1; Gmsh converts other versions. */
 bool msh_is_readable(const char *path);
 
 #endif

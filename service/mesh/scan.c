@@ -15,9 +15,9 @@
 enum { WORD_SIZE = 32 };
 static const char BYTE_ORDER_MARK[] = "\xEF\xBB\xBF";
 
-/* reads what is left of a stream into memory that grows with it */
-static enum percuss_status slurp(FILE *stream, const char *path, struct scan *scan,
-                                 struct fault *fault)
+/* reads the rest of a stream into growing memory */
+static enum percuss_status read_stream(FILE *stream, const char *path, struct scan *scan,
+                                       struct fault *fault)
 {
     size_t room = 1 << 16;
     scan->text = malloc(room);
@@ -36,7 +36,7 @@ static enum percuss_status slurp(FILE *stream, const char *path, struct scan *sc
     if (ferror(stream))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", path, strerror(errno));
     scan->text[scan->size] = '\0';
-    /* editors of Windows begin a text with this */
+    /* editors on Windows write this mark first */
     scan->at = strncmp(scan->text, BYTE_ORDER_MARK, sizeof BYTE_ORDER_MARK - 1) == 0
                    ? sizeof BYTE_ORDER_MARK - 1
                    : 0;
@@ -49,7 +49,7 @@ enum percuss_status scan_open(const char *path, struct scan *scan, struct fault 
     FILE *stream = fopen(path, "rb");
     if (!stream)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", path, strerror(errno));
-    enum percuss_status status = slurp(stream, path, scan, fault);
+    enum percuss_status status = read_stream(stream, path, scan, fault);
     fclose(stream);
     if (status != PERCUSS_OK)
         scan_close(scan);
@@ -103,11 +103,11 @@ static void skip_space(struct scan *scan)
         scan->line += scan->text[scan->at] == '\n';
 }
 
-/* bytes of a number; false with a message where the file ends before */
-static bool take_bytes(struct scan *scan, const char *what, void *value, size_t size)
+/* takes the bytes of a number; false with a message: the file ends before */
+static bool take_bytes(struct scan *scan, const char *subject, void *value, size_t size)
 {
     if (scan->size - scan->at < size) {
-        scan_refuse(scan, "%s: the file ends here: it must be whole", what);
+        scan_refuse(scan, "%s: the file ends here: it must be whole", subject);
         return false;
     }
     memcpy(value, scan->text + scan->at, size);
@@ -115,8 +115,8 @@ static bool take_bytes(struct scan *scan, const char *what, void *value, size_t 
     return true;
 }
 
-/* refuses the word that is no number, or the end of the file */
-static bool refuse_word(const struct scan *scan, const char *what, const char *allowed)
+/* refuses a word that is no number, or the end of the file */
+static bool refuse_word(const struct scan *scan, const char *subject, const char *allowed)
 {
     char word[WORD_SIZE];
     size_t length = 0;
@@ -128,13 +128,13 @@ static bool refuse_word(const struct scan *scan, const char *what, const char *a
     }
     word[length] = '\0';
     if (length == 0)
-        scan_refuse(scan, "%s: the file ends here: it must be whole", what);
+        scan_refuse(scan, "%s: the file ends here: it must be whole", subject);
     else
-        scan_refuse(scan, "%s: %s: must be %s", what, word, allowed);
+        scan_refuse(scan, "%s: %s: must be %s", subject, word, allowed);
     return false;
 }
 
-/* moves beyond a number that strto... has read up to `end`; white space must follow */
+/* skips a number that strto... has read up to `end`; white space must follow */
 static bool scan_pass(struct scan *scan, const char *end)
 {
     size_t at = (size_t)(end - scan->text);
@@ -144,25 +144,25 @@ static bool scan_pass(struct scan *scan, const char *end)
     return true;
 }
 
-bool scan_integer(struct scan *scan, const char *what, int *value)
+bool scan_integer(struct scan *scan, const char *subject, int *value)
 {
     if (scan->binary)
-        return take_bytes(scan, what, value, sizeof *value);
+        return take_bytes(scan, subject, value, sizeof *value);
     skip_space(scan);
     char *end;
     errno = 0;
     long number = strtol(scan->text + scan->at, &end, 10);
     if (errno || number < INT_MIN || number > INT_MAX || !scan_pass(scan, end))
-        return refuse_word(scan, what, "a whole number");
+        return refuse_word(scan, subject, "a whole number");
     *value = (int)number;
     return true;
 }
 
-bool scan_size(struct scan *scan, const char *what, size_t *value)
+bool scan_size(struct scan *scan, const char *subject, size_t *value)
 {
     if (scan->binary) {
         uint64_t number;
-        if (!take_bytes(scan, what, &number, sizeof number))
+        if (!take_bytes(scan, subject, &number, sizeof number))
             return false;
         *value = number;
         return true;
@@ -172,27 +172,28 @@ bool scan_size(struct scan *scan, const char *what, size_t *value)
     errno = 0;
     unsigned long long number = strtoull(scan->text + scan->at, &end, 10);
     if (errno || !isdigit((unsigned char)scan->text[scan->at]) || !scan_pass(scan, end))
-        return refuse_word(scan, what, "a whole number >= 0");
+        return refuse_word(scan, subject, "a whole number >= 0");
     *value = number;
     return true;
 }
 
-bool scan_real(struct scan *scan, const char *what, double *value)
+bool scan_real(struct scan *scan, const char *subject, double *value)
 {
     if (scan->binary)
-        return take_bytes(scan, what, value, sizeof *value);
+        return take_bytes(scan, subject, value, sizeof *value);
     skip_space(scan);
     char *end;
     *value = strtod(scan->text + scan->at, &end);
-    return scan_pass(scan, end) || refuse_word(scan, what, "a number");
+    return scan_pass(scan, end) || refuse_word(scan, subject, "a number");
 }
 
-bool scan_count(struct scan *scan, const char *what, size_t *value)
+bool scan_count(struct scan *scan, const char *subject, size_t *value)
 {
-    if (!scan_size(scan, what, value))
+    if (!scan_size(scan, subject, value))
         return false;
     if (*value <= scan->size - scan->at)
         return true;
-    scan_refuse(scan, "%s: %zu: the file is too short for so many: it must be whole", what, *value);
+    scan_refuse(scan, "%s: %zu: the file is too short for so many: it must be whole", subject,
+                *value);
     return false;
 }

@@ -10,14 +10,14 @@
 
 #include "base/fault.h"
 
-/* Where reading is. `text` ends with a zero after `size` bytes. */
+/* State of reading. `text` ends with a zero after `size` bytes. */
 struct scan {
     const char *file; /* for messages */
     char *text;
     size_t size, at;
-    size_t line;  /* from 1: of what was read last */
-    size_t ended; /* lines that end before `at` and are not counted yet */
-    bool binary;  /* numbers are those of the machine */
+    size_t line;  /* from 1: line of the last token */
+    size_t ended; /* line ends before `at` that `line` does not count yet */
+    bool binary;  /* numbers are bytes of this machine's types */
     struct fault *fault;
 };
 
@@ -29,17 +29,16 @@ void scan_close(struct scan *scan);
 enum percuss_status scan_refuse(const struct scan *scan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Copies the next line without its end, cut to fit, and goes beyond it; false: there is none. */
+/* Copies the next line without its end, cut to fit, and skips it; false: there is none. */
 bool scan_line(struct scan *scan, char *line, size_t size);
 
-/* Numbers, between white space or as bytes; false: there is none, or it is out of range, which
- * `what` is refused for. */
-bool scan_integer(struct scan *scan, const char *what, int *value);
-bool scan_size(struct scan *scan, const char *what, size_t *value);
-bool scan_real(struct scan *scan, const char *what, double *value);
+/* Numbers, between white space or as bytes; false: there is none, or it is out of range; the
+ * refusal begins with `subject`. */
+bool scan_integer(struct scan *scan, const char *subject, int *value);
+bool scan_size(struct scan *scan, const char *subject, size_t *value);
+bool scan_real(struct scan *scan, const char *subject, double *value);
 
-/* The same for a count of things that take at least one byte each: what is left of the file bounds
- * it. */
-bool scan_count(struct scan *scan, const char *what, size_t *value);
+/* The same for a count of items of at least one byte each: the rest of the file bounds it. */
+bool scan_count(struct scan *scan, const char *subject, size_t *value);
 
 #endif

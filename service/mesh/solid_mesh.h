@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A body cut into elements of second order, as files of meshes state it. */
+/* A body as a mesh of elements of second order, as read from a file. */
 #ifndef PERCUSS_MESH_SOLID_MESH_H
 #define PERCUSS_MESH_SOLID_MESH_H
 
@@ -18,11 +18,11 @@ enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64 };
 /* Elements of one material: a physical volume, an element set. */
 struct mesh_part {
     char name[MESH_NAME_SIZE];
-    bool has_material; /* the file states it; else it is the caller's to set */
+    bool has_material; /* the file states it; else the caller sets it */
     struct material material;
 };
 
-/* Nodes with a name, to hold a body by: a physical surface, a node set. */
+/* Named nodes that a support may hold: a physical surface, a node set. */
 struct mesh_set {
     char name[MESH_NAME_SIZE];
     size_t count;

@@ -11,7 +11,7 @@
 #include "mesh/joined.h"
 #include "model/vector.h"
 
-/* ---- boundary: the faces of elements, and which of them are the body's ---- */
+/* ---- boundary: the faces of elements that belong to one element only ---- */
 
 /* faces of the elements in Gmsh's order of nodes, outward: corners, mid nodes, middle */
 static const unsigned char TET_FACES[4][6] = {
@@ -21,7 +21,7 @@ static const unsigned char HEX_FACES[6][9] = {
     {0, 1, 5, 4, 8, 12, 16, 10, 21},  {1, 2, 6, 5, 11, 14, 18, 12, 23},
     {2, 3, 7, 6, 13, 15, 19, 14, 24}, {3, 0, 4, 7, 9, 10, 17, 15, 22}};
 
-/* one face of an element, found again by its corners in ascending order */
+/* one face of an element, sorted by its corners in ascending order */
 struct entry {
     size_t corners[4]; /* SIZE_MAX for the fourth one of a triangle */
     size_t element;
@@ -87,8 +87,8 @@ static int compare_places(const void *left, const void *right)
     return a->element < b->element ? -1 : a->element > b->element;
 }
 
-/* two elements that share corners share the mid nodes of the edges too: else the body is cut there
- */
+/* two elements that share corners must share the mid nodes of the edges: otherwise the body is cut
+ * there */
 static enum percuss_status check_pair(const struct solid_mesh *mesh, const struct entry *pair,
                                       struct fault *fault)
 {
@@ -109,7 +109,7 @@ static enum percuss_status check_pair(const struct solid_mesh *mesh, const struc
     return PERCUSS_OK;
 }
 
-/* keeps those that stand alone among the sorted entries */
+/* keeps unpaired faces of the sorted entries */
 static enum percuss_status pick_boundary(const struct solid_mesh *mesh, const struct entry *entries,
                                          size_t count, struct surface_face *faces, size_t *kept,
                                          struct fault *fault)
@@ -133,7 +133,7 @@ static enum percuss_status pick_boundary(const struct solid_mesh *mesh, const st
     return PERCUSS_OK;
 }
 
-/* the faces of all elements, those with the same corners beside each other; NULL: out of memory */
+/* the faces of all elements, sorted by corners; NULL: out of memory */
 static struct entry *sorted_faces(const struct solid_mesh *mesh, size_t *total, struct fault *fault)
 {
     *total = 0;
@@ -163,7 +163,7 @@ static enum percuss_status boundary_faces(const struct solid_mesh *mesh,
     if (!entries)
         return PERCUSS_INTERNAL;
 
-    /* how many there will be at most: those alone */
+    /* their largest number: unpaired faces */
     size_t alone = 0;
     for (size_t i = 0; i < total; i++)
         alone += (i == 0 || compare_corners(&entries[i - 1], &entries[i]) != 0) &&
@@ -200,10 +200,10 @@ enum percuss_status boundary_join(const struct solid_mesh *mesh, size_t *parent,
 
 /* ---- patches ---- */
 
-/* faces that turn by more at an edge do not continue each other: cos 35 degrees */
+/* faces of one patch turn by less at an edge: cos 35 degrees */
 static const double SMOOTH_COSINE = 0.81915204428899180;
 
-/* an edge of a face, found again by its corners */
+/* an edge of a face, sorted by its corners */
 struct edge {
     size_t low, high, face;
     double normal[3]; /* of the face at the middle of the edge */
@@ -265,8 +265,7 @@ static int compare_lengths(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* joins faces that meet smoothly; where more than two meet in an edge the body only touches itself
- */
+/* joins faces that meet smoothly; where more than two meet in an edge the body touches itself */
 static void join_smooth(const struct edge *edges, size_t count, size_t *parent)
 {
     for (size_t i = 0, n; i < count; i += n) {
@@ -293,7 +292,7 @@ static void number_patches(struct surface *surface, size_t *parent)
 static enum percuss_status make_patches(const struct solid_mesh *mesh, struct surface *surface,
                                         struct fault *fault)
 {
-    /* each face brings all its edges */
+    /* an edge appears once for each of its faces */
     size_t count = 0;
     for (size_t f = 0; f < surface->face_count; f++)
         count += (size_t)surface_face_corners(&surface->faces[f]);
@@ -309,7 +308,7 @@ static enum percuss_status make_patches(const struct solid_mesh *mesh, struct su
         qsort(lengths, count, sizeof *lengths, compare_lengths);
         surface->size = lengths[count / 2];
 
-        /* faces that are joined across a smooth edge make a patch */
+        /* faces joined across smooth edges make a patch */
         joined_begin(parent, surface->face_count);
         qsort(edges, count, sizeof *edges, compare_edges);
         join_smooth(edges, count, parent);
@@ -338,7 +337,7 @@ enum percuss_status surface_make(const struct solid_mesh *mesh, struct surface *
     return status;
 }
 
-/* A face lies within this distance of its nearest node: some edge of it. */
+/* Every point of a face lies within this distance of its nearest node. */
 static double face_reach(int count, double (*points)[3])
 {
     double longest = 0.0, way[3];

@@ -18,7 +18,7 @@ enum { FACE_MOST_NODES = FACET_MOST_NODES };
 struct surface_face {
     unsigned char count;           /* enum surface_face_type */
     size_t nodes[FACE_MOST_NODES]; /* of the mesh */
-    size_t element, part;          /* the element and part below it */
+    size_t element, part;          /* its element and part */
     size_t patch;                  /* faces of one patch meet smoothly */
 };
 
@@ -27,11 +27,11 @@ static inline int surface_face_corners(const struct surface_face *face)
     return face->count == FACE_TRIANGLE6 ? 3 : 4;
 }
 
-/* What the surface is like at one node of one face: faces that meet in a sharp edge differ. */
+/* Normal and curvature at one node of one face: faces that meet in a sharp edge differ. */
 struct surface_point {
     double normal[3];    /* outward, unit */
     double curvature[9]; /* symmetric tensor, 1/m, > 0 where convex; as of struct site */
-    double doubt;        /* how far fits of two orders differ in the normal, rad */
+    double doubt;        /* angle between the normals of fits of two orders, rad */
 };
 
 /* Owns its arrays. */
@@ -40,9 +40,8 @@ struct surface {
     struct surface_face *faces;
     struct surface_point (*points)[FACE_MOST_NODES]; /* [face_count]; NULL before surface_fit */
     double size;                                     /* median distance of corners, m */
-    size_t straight;                                 /* edges on curved ground whose mid node is in
-                                                      * their middle (surface_fit) */
-    size_t edges;                                    /* edges on curved ground (surface_fit) */
+    size_t straight; /* edges on curved ground with a mid node on the chord (surface_fit) */
+    size_t edges;    /* edges on curved ground (surface_fit) */
 };
 
 /* A place on the surface. */
@@ -54,7 +53,7 @@ struct surface_place {
 
 /* Faces that belong to one element only, outward where the element's det J > 0, in patches that end
  * where normals turn by more than 35 degrees at an edge. PERCUSS_BAD_REQUEST: faces that three
- * elements share, or two with other mid nodes. Free what it makes with surface_free. */
+ * elements share, or two with other mid nodes. Free the surface with surface_free. */
 enum percuss_status surface_make(const struct solid_mesh *mesh, struct surface *surface,
                                  struct fault *fault);
 
@@ -74,7 +73,7 @@ void surface_face_points(const struct solid_mesh *mesh, const struct surface_fac
 
 void surface_free(struct surface *surface);
 
-/* Elements that hang together by whole faces, in `parent` [element_count] as of mesh/joined.h. */
+/* Joins elements that share a face, in `parent` [element_count] of mesh/joined.h. */
 enum percuss_status boundary_join(const struct solid_mesh *mesh, size_t *parent,
                                   struct fault *fault);
 

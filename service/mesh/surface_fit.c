@@ -17,21 +17,21 @@ struct net {
     size_t vertex_count;
     size_t *nodes;                       /* [vertex_count], of the mesh */
     double (*normals)[3];                /* [vertex_count]: mean of the faces', unit */
-    double *spacing;                     /* [vertex_count]: distance of nodes about it, m */
-    bool *left_out;                      /* [vertex_count]: mid nodes that are not on the surface */
+    double *spacing;                     /* [vertex_count]: mean distance of its neighbours, m */
+    bool *left_out;                      /* [vertex_count]: mid nodes off the surface */
     size_t *first;                       /* [vertex_count + 1] */
-    size_t *faces;                       /* those at vertex i are faces[first[i]] .. */
+    size_t *faces;                       /* faces at vertex i are faces[first[i]] .. */
     size_t (*vertices)[FACE_MOST_NODES]; /* [face_count]: of each face, in its order;
                                           * SIZE_MAX beyond its nodes */
 };
 
-/* an edge bends by L^2/(8R): below this part of its length it is flat ground, or straight on a
- * cylinder where the normals of faces are off by so much */
+/* an edge bends by L^2/(8R): below this part of its length the ground is flat, or the edge runs
+ * along a cylinder, where the normals of faces have such errors */
 static const double LEAST_BEND = 2e-3;
-/* and is straight where its mid node has less than this part of the bend */
+/* it is straight if its mid node has less than this part of the bend */
 static const double STRAIGHT = 0.1;
 
-/* a node of a face, found again by node and patch */
+/* a node of a face, sorted by node and patch */
 struct visit {
     size_t node, patch, face;
     int local;
@@ -131,8 +131,8 @@ static void net_average(const struct solid_mesh *mesh, const struct surface *sur
     }
 }
 
-/* a parabola whose normals turn by dn over the edge d has its middle dn.d/8 off the chord: mid
- * nodes that have not are left out */
+/* if the normals turn by dn over the edge d, a parabola's middle lies dn.d/8 off the chord: leaves
+ * out mid nodes that do not */
 static void find_straight(const struct solid_mesh *mesh, struct surface *surface, struct net *net)
 {
     surface->straight = surface->edges = 0;
@@ -146,13 +146,14 @@ static void find_straight(const struct solid_mesh *mesh, struct surface *surface
             const double *a = net->normals[net->vertices[f][i]];
             const double *b = net->normals[net->vertices[f][j]];
             const double *from = mesh->points[face->nodes[i]], *to = mesh->points[face->nodes[j]];
-            /* how far its middle lies off the chord */
+            /* its mid node's distance from the chord */
             double turn[3], way[3], off[3];
             sub3(b, a, turn);
             sub3(to, from, way);
             for (int k = 0; k < 3; k++)
                 off[k] = mesh->points[face->nodes[corners + i]][k] - 0.5 * (from[k] + to[k]);
-            /* and how far it should: one that is bent, yet straight, is left out */
+            /* its distance on a parabola; leave it out if the ground is curved and the edge
+             * straight */
             double bend = fabs(dot3(turn, way)) / 8.0;
             bool curved = bend > LEAST_BEND * norm3(way);
             bool straight = curved && norm3(off) < STRAIGHT * bend;
@@ -163,7 +164,7 @@ static void find_straight(const struct solid_mesh *mesh, struct surface *surface
     }
 }
 
-/* the middle of a nine-node face is no better than its edges */
+/* leaves out the middle of a nine-node face with a straight edge */
 static void leave_out_middles(const struct surface *surface, struct net *net)
 {
     for (size_t f = 0; f < surface->face_count; f++) {
@@ -230,36 +231,35 @@ static bool net_make(const struct solid_mesh *mesh, struct surface *surface, str
 
 enum {
     MOST_TERMS = 15,    /* of a polynomial of fourth order in two variables */
-    MOST_SAMPLES = 400, /* within 4 edges there are some 200 in an even mesh */
+    MOST_SAMPLES = 400, /* an even mesh has some 200 within 4 edges */
     MOST_ORDER = 4
 };
 
-/* radii to try, in distances of nodes; the first with samples enough: some 1.5 to 2 edges of an
+/* radii to try, in distances of nodes, until there are enough samples: some 1.5 to 2 edges of an
  * element, 3 to 4 where mid nodes are left out */
 static const double RADII[] = {3.0, 3.5, 4.0};
 static const size_t ENOUGH = 30;
-/* as many samples as this for each term, or the order is lowered */
+/* with fewer samples for each term the order is lowered */
 static const double SAMPLES_PER_TERM = 1.4;
-/* exponent of the weight at the radius: near samples tell more of the node */
+/* exponent of the weight at the radius: near samples weigh more */
 static const double WEIGHT_FALL = 6.0;
-/* ground that has turned by more is no function of the tangent plane's coordinates: cos 60 degrees
- */
+/* steeper ground is no function of the tangent plane's coordinates: cos 60 degrees */
 static const double STEEPEST_COSINE = 0.5;
-/* pivots of the normal equations against their diagonals. Those of the slopes, which come last, say
- * how much of a slope the higher terms cannot imitate: .1 inside, .001 where the samples are on
- * one side only and the slope would be an extrapolation */
+/* least pivots of the normal equations over their diagonals. Those of the slopes, which come last,
+ * measure the part of a slope that is independent of the higher terms: .1 inside, .001 where the
+ * samples are on one side only and the slope would be an extrapolation */
 static const double LEAST_PIVOT = 1e-9, LEAST_SLOPE_PIVOT = 1e-2;
 
-/* what a fit has to look at */
+/* samples of a fit */
 struct fit {
-    double frame[3][3]; /* two tangents and the normal to start with */
+    double frame[3][3]; /* two tangents and the mean normal */
     double radius;      /* m */
     bool through;       /* the surface goes through the node itself */
     size_t count;
     double at[MOST_SAMPLES][3]; /* in the frame, by radius */
 };
 
-/* the walk over the net, kept from vertex to vertex */
+/* the walk over the net; its memory serves all vertices */
 struct walk {
     const struct solid_mesh *mesh;
     const struct net *net;
@@ -321,7 +321,8 @@ static void fit_gather(struct walk *walk, size_t start, double radius, struct fi
     }
 }
 
-/* by falling degree, slopes last; 1 comes first where the surface misses the node */
+/* terms by falling degree, slopes last; 1 comes first where the surface does not pass through the
+ * node */
 static int polynomial_terms(bool through, int order, double x, double y, double *term)
 {
     int count = 0;
@@ -343,7 +344,7 @@ static int polynomial_terms(bool through, int order, double x, double y, double 
  */
 static bool solve_normal_equations(int n, double (*a)[MOST_TERMS], double *b)
 {
-    /* L in the lower half of a; the last two terms, the slopes, must stand out more */
+    /* L in the lower half of a; the last two terms, the slopes, need larger pivots */
     for (int i = 0; i < n; i++) {
         double diagonal = a[i][i];
         for (int j = 0; j <= i; j++) {
@@ -434,12 +435,12 @@ static double angle_between(const double a[3], const double b[3])
     return atan2(norm3(cross), dot3(a, b));
 }
 
-/* the highest order that the samples bear, and how much the next lower one differs */
+/* the highest order that the samples determine, and its difference from the next lower one */
 static void fit_vertex(struct walk *walk, size_t vertex, struct fit *fit,
                        struct surface_point *point)
 {
     const struct net *net = walk->net;
-    /* until a fit says more, the mean normal, wholly in doubt */
+    /* without a fit: the mean normal, in doubt by pi */
     const double *normal = net->normals[vertex];
     *point = (struct surface_point){.doubt = M_PI};
     memcpy(point->normal, normal, sizeof point->normal);
@@ -483,7 +484,7 @@ enum percuss_status surface_fit(const struct solid_mesh *mesh, struct surface *s
     free(surface->points);
     surface->points = calloc(surface->face_count, sizeof *surface->points);
     enum percuss_status status = PERCUSS_OK;
-    /* each vertex once, then to every face that has it */
+    /* fit each vertex once, and copy it to its faces */
     if (walk.stamps && walk.queue && points && fit && surface->points) {
         for (size_t i = 0; i < net.vertex_count; i++)
             fit_vertex(&walk, i, fit, &points[i]);

@@ -77,9 +77,10 @@ static enum percuss_status database_refuse(struct database *database, const char
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", database->path, problem);
 }
 
-enum percuss_status database_fault(struct database *database, const char *what, struct fault *fault)
+enum percuss_status database_fault(struct database *database, const char *subject,
+                                   struct fault *fault)
 {
-    return fault_set(fault, PERCUSS_INTERNAL, "%s: %s: %s", database->path, what,
+    return fault_set(fault, PERCUSS_INTERNAL, "%s: %s: %s", database->path, subject,
                      sqlite3_errmsg(database->connection));
 }
 
@@ -264,9 +265,9 @@ void database_roll_back(struct database *database)
 
 bool database_matches(sqlite3_stmt *row, int column, const struct digest *sum)
 {
-    const void *kept = sqlite3_column_blob(row, column);
-    return kept && sqlite3_column_bytes(row, column) == sizeof *sum &&
-           memcmp(kept, sum, sizeof *sum) == 0;
+    const void *stored = sqlite3_column_blob(row, column);
+    return stored && sqlite3_column_bytes(row, column) == sizeof *sum &&
+           memcmp(stored, sum, sizeof *sum) == 0;
 }
 
 bool database_audit(struct database *database, struct audit *audit)

@@ -86,8 +86,8 @@ bool database_run(sqlite3_stmt *statement);
 /* Rolls the transaction back, if one is open. */
 void database_roll_back(struct database *database);
 
-/* PERCUSS_INTERNAL with "FILE: what: SQLite's message". */
-enum percuss_status database_fault(struct database *database, const char *what,
+/* PERCUSS_INTERNAL with "FILE: subject: SQLite's message". */
+enum percuss_status database_fault(struct database *database, const char *subject,
                                    struct fault *fault);
 
 #endif

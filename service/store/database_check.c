@@ -30,10 +30,10 @@ static enum percuss_status database_check_refuse(const char *path, const char *p
                      length > most ? path + length - most : path, problem);
 }
 
-static enum percuss_status refuse_access(const char *path, const char *what, struct fault *fault)
+static enum percuss_status refuse_access(const char *path, const char *verb, struct fault *fault)
 {
     char problem[160];
-    snprintf(problem, sizeof problem, "cannot be %s: %s", what, strerror(errno));
+    snprintf(problem, sizeof problem, "cannot be %s: %s", verb, strerror(errno));
     return database_check_refuse(path, problem, fault);
 }
 

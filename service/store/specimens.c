@@ -247,15 +247,15 @@ static enum percuss_status reply_refuse_damaged(struct database *database,
 static enum percuss_status take_reply(struct database *database, sqlite3_stmt *row,
                                       struct stored_reply *reply, struct fault *fault)
 {
-    struct stored_reply kept;
-    if (!reply_read_row(row, &kept))
+    struct stored_reply stored;
+    if (!reply_read_row(row, &stored))
         return reply_refuse_damaged(database, reply, fault);
-    void *bytes = malloc(kept.size);
+    void *bytes = malloc(stored.size);
     if (!bytes)
         return fault_set(fault, PERCUSS_INTERNAL, "%s: stored replies: out of memory",
                          database->path);
-    *reply = kept;
-    reply->bytes = memcpy(bytes, kept.bytes, kept.size);
+    *reply = stored;
+    reply->bytes = memcpy(bytes, stored.bytes, stored.size);
     reply->damaged = false;
     return PERCUSS_OK;
 }

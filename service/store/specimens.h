@@ -72,7 +72,7 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
 struct specimen {
     const char *name;
     const char *body;               /* id */
-    uint64_t impacts;               /* their number */
+    uint64_t impacts;               /* number of impacts on it */
     const struct body_state *state; /* its dents; NULL: none */
     bool damaged;                   /* its checksum differs: without dents */
 };

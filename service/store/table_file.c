@@ -280,9 +280,9 @@ bool folder_own_tables(char *path, size_t size)
 /* ---- files ---- */
 
 static enum percuss_status table_file_refuse(struct fault *fault, const char *path,
-                                             const char *what)
+                                             const char *problem)
 {
-    return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: %s: %s", path, what, strerror(errno));
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: %s: %s", path, problem, strerror(errno));
 }
 
 /* Writes the text and syncs it, before its file gets the final name. */
@@ -304,24 +304,25 @@ static bool write_synced(int file, const char *text)
 enum percuss_status table_file_write(const char *folder, const char *text, const char *path,
                                      struct fault *fault)
 {
-    char aside[TABLE_PATH_SIZE];
+    char temporary[TABLE_PATH_SIZE];
     if (!folder_make(folder))
         return table_file_refuse(fault, folder, "cannot be made");
     /* without .json at its end it is not loaded as a table */
-    if (snprintf(aside, sizeof aside, "%s/.table-XXXXXX", folder) >= (int)sizeof aside) {
+    if (snprintf(temporary, sizeof temporary, "%s/.table-XXXXXX", folder) >=
+        (int)sizeof temporary) {
         errno = ENAMETOOLONG;
         return table_file_refuse(fault, folder, "cannot be written to");
     }
-    int file = mkstemp(aside);
+    int file = mkstemp(temporary);
     if (file < 0)
         return table_file_refuse(fault, folder, "cannot be written to");
     /* rename it once it is whole */
     bool good = write_synced(file, text) && fchmod(file, 0644) == 0;
     good = close(file) == 0 && good;
-    if (good && rename(aside, path) == 0)
+    if (good && rename(temporary, path) == 0)
         return atomic_file_sync_folder(path, fault);
     enum percuss_status status = table_file_refuse(fault, path, "cannot be written");
-    unlink(aside);
+    unlink(temporary);
     return status;
 }
 
