@@ -12,7 +12,10 @@
 #include "base/hash.h"
 
 /* "prcs" marks a file as a store of percuss. */
-enum { DATABASE_APPLICATION = 0x70726373, SCHEMA_VERSION = 3 };
+enum { DATABASE_APPLICATION = 0x70726373 };
+
+/* The version of the schema, stored in the file. */
+enum { SCHEMA_VERSION = 3 };
 
 enum statement {
     STATEMENT_BEGIN,
