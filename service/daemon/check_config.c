@@ -3,16 +3,15 @@
 
 #include "daemon/check_config.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "catalogue/catalogue.h"
+#include "daemon/identity.h"
 #include "daemon/limits.h"
+#include "daemon/reducer.h"
+#include "daemon/standby.h"
 #include "endpoint/endpoint.h"
 #include "model/body_kind.h"
 #include "model/describe.h"
@@ -129,20 +128,12 @@ static bool check_tables(const struct settings *settings)
     return good;
 }
 
-/* Where reduced bodies go: a folder to write to, or one that can be made. */
 static bool check_bodies(const struct settings *settings)
 {
     struct fault fault;
-    if (!settings->bodies[0] || access(settings->bodies, W_OK | X_OK) == 0)
+    if (!settings->bodies[0] || !reducer_check_folder(settings->bodies, &fault))
         return true;
-    bool missing = errno == ENOENT;
-    if (missing && database_folder_check(settings->bodies, &fault) == PERCUSS_OK)
-        return true;
-    if (missing)
-        fprintf(stderr, "percussd: bodies: %s\n", fault.text);
-    else
-        fprintf(stderr, "percussd: bodies: %.300s: cannot be written to: %s\n", settings->bodies,
-                strerror(errno));
+    fprintf(stderr, "percussd: bodies: %s\n", fault.text);
     return false;
 }
 
@@ -160,39 +151,25 @@ static bool check_store(const struct settings *settings)
     return false;
 }
 
-/* An identity that is good, but not for long. */
-static void remark_identity(const char *folder)
-{
-    struct wire_validity validity;
-    char remark[512];
-    if (!wire_validity_read(folder, &validity) &&
-        wire_security_remark(folder, &validity, time(NULL), remark, sizeof remark))
-        fprintf(stderr, "percussd: warning: %s\n", remark);
-}
-
 static bool check_security(const struct settings *settings)
 {
     struct fault fault;
+    char remark[512];
     if (!settings->security[0])
         return true;
     if (!endpoint_check_security(settings->security, &fault)) {
         fprintf(stderr, "percussd: %s\n", fault.text);
         return false;
     }
-    remark_identity(settings->security);
+    if (identity_remark(settings->security, remark, sizeof remark))
+        fprintf(stderr, "percussd: warning: %s\n", remark);
     return true;
 }
 
-/* The file whose lock is waited for: one to write to, or one that can be made. */
 static bool check_standby(const struct settings *settings)
 {
     struct fault fault;
-    if (!settings->standby[0] || access(settings->standby, R_OK | W_OK) == 0)
-        return true;
-    if (errno != ENOENT)
-        fault_set(&fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be written to: %s",
-                  settings->standby, strerror(errno));
-    else if (database_folder_check(settings->standby, &fault) == PERCUSS_OK)
+    if (!settings->standby[0] || !standby_check(settings->standby, &fault))
         return true;
     fprintf(stderr, "percussd: standby: %s\n", fault.text);
     return false;
@@ -202,12 +179,7 @@ static bool check_standby(const struct settings *settings)
 static void remark_file(const char *key, const char *path)
 {
     struct fault fault;
-    if (!path[0] || access(path, W_OK) == 0)
-        return;
-    if (errno != ENOENT)
-        fprintf(stderr, "percussd: warning: %s: %.300s: cannot be written to: %s\n", key, path,
-                strerror(errno));
-    else if (database_folder_check(path, &fault))
+    if (path[0] && limits_check_place(path, W_OK, &fault))
         fprintf(stderr, "percussd: warning: %s: %s\n", key, fault.text);
 }
 

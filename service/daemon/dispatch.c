@@ -7,15 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "daemon/clear_job.h"
-#include "daemon/cost.h"
+#include "daemon/client_job.h"
 #include "daemon/delivery.h"
 #include "daemon/ensemble_job.h"
-#include "daemon/impact_job.h"
 #include "daemon/log.h"
-#include "daemon/means.h"
-#include "daemon/pulse.h"
+#include "daemon/pool.h"
 #include "daemon/queue.h"
+#include "daemon/store_job.h"
 #include "exchange/clock.h"
 #include "exchange/question.h"
 #include "respond/responder.h"
@@ -44,7 +42,7 @@ struct dispatch *dispatch_create(struct shared *shared)
     if (!dispatch)
         return NULL;
     dispatch->shared = shared;
-    dispatch->responder = means_responder(shared, LANE_SHORT);
+    dispatch->responder = shared_responder(shared, LANE_SHORT);
     if (dispatch->responder)
         return dispatch;
     free(dispatch);
@@ -132,7 +130,7 @@ static bool is_sole(struct dispatch *dispatch, const uint8_t client[16], double 
 /* Whether the reading thread may solve it. */
 static bool is_for_here(const struct shared *shared, const percuss_v1_Request *request)
 {
-    return shared->settings->inline_solves && cost_is_cheap(request) &&
+    return shared->settings->inline_solves && impact_job_is_cheap(request) &&
            !impact_job_is_durable(shared, request) && !atomic_load(&shared->draining) &&
            queue_length(shared->lanes[LANE_SHORT]) == 0;
 }
@@ -317,7 +315,7 @@ static void note_presence(void *context, const uint8_t client[16], enum presence
 static void note_alive(void *context)
 {
     (void)context;
-    pulse_beat();
+    heartbeat_beat();
 }
 
 struct endpoint_handler dispatch_handler(struct dispatch *dispatch)

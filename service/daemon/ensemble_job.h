@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Ensembles that clients ask for. */
+/* Jobs for ensembles: run by several threads, with progress and listed samples on the wire. */
 #ifndef PERCUSS_DAEMON_ENSEMBLE_JOB_H
 #define PERCUSS_DAEMON_ENSEMBLE_JOB_H
 

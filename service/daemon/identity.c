@@ -4,6 +4,7 @@
 #include "daemon/identity.h"
 
 #include "daemon/log.h"
+#include "wire_security.h"
 
 static const double LOOK_SECONDS = 86400.0;
 
@@ -28,4 +29,11 @@ void identity_look(struct identity *identity, double now, time_t then)
     else if (wire_validity_ends_soon(&identity->validity, then, words, sizeof words))
         log_line(LEVEL_WARNING, "security: %s/%s: make the folder anew before, and restart",
                  identity->folder, words);
+}
+
+bool identity_remark(const char *folder, char *remark, size_t size)
+{
+    struct wire_validity validity;
+    return !wire_validity_read(folder, &validity) &&
+           wire_security_remark(folder, &validity, time(NULL), remark, size);
 }

@@ -3,13 +3,16 @@
 
 #include "daemon/limits.h"
 
+#include <errno.h>
 #include <malloc.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "daemon/log.h"
+#include "store/database_check.h"
 
 /* DDS takes 8 and aborts or crashes without; files of store, catalogue, tables and security come
  * and go; the others are for sockets that a configuration of DDS asks for. */
@@ -32,7 +35,7 @@ unsigned long long limits_address_space(const struct settings *settings, size_t 
 }
 
 /* Bytes that the process may map; 0: no limit. */
-static unsigned long long mapping_limit(void)
+static unsigned long long limits_mapping(void)
 {
     static const int kinds[] = {RLIMIT_AS, RLIMIT_DATA};
     unsigned long long least = 0;
@@ -45,7 +48,7 @@ static unsigned long long mapping_limit(void)
     return least;
 }
 
-static size_t stack_size(void)
+static size_t limits_stack_size(void)
 {
     pthread_attr_t attributes;
     size_t size = 8 * MIB;
@@ -74,18 +77,28 @@ static enum percuss_status check_descriptors(struct fault *fault)
 enum percuss_status limits_check(const struct settings *settings, struct fault *fault)
 {
     enum percuss_status status = check_descriptors(fault);
-    unsigned long long allowed = mapping_limit();
-    unsigned long long needed = limits_address_space(settings, stack_size());
+    unsigned long long allowed = limits_mapping();
+    unsigned long long needed = limits_address_space(settings, limits_stack_size());
     if (status || !allowed || allowed / KIB >= needed)
         return status;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "address space: %llu KiB are allowed (ulimit -v or -d, LimitAS=): must be at "
                      "least %llu with %u workers and stacks of %zu KiB, or unlimited",
-                     allowed / KIB, needed, settings->workers, stack_size() / (size_t)KIB);
+                     allowed / KIB, needed, settings->workers, limits_stack_size() / (size_t)KIB);
+}
+
+enum percuss_status limits_check_place(const char *path, int mode, struct fault *fault)
+{
+    if (access(path, mode) == 0)
+        return PERCUSS_OK;
+    if (errno == ENOENT)
+        return database_folder_check(path, fault);
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be written to: %s", path,
+                     strerror(errno));
 }
 
 /* The limit of a group or of one above it, whichever is lowest. `folder` is cut down to `root`. */
-static unsigned long long lowest(char *folder, size_t root, const char *file)
+static unsigned long long limits_lowest(char *folder, size_t root, const char *file)
 {
     unsigned long long least = 0;
     for (;;) {
@@ -127,7 +140,7 @@ unsigned long long limits_cgroup(const char *root, const char *membership)
             (size_t)snprintf(folder, sizeof folder, "%s%s", root, first ? "/memory" : "");
         snprintf(folder + length, sizeof folder - length, "%s", strcmp(path, "/") ? path : "");
         unsigned long long found =
-            lowest(folder, length, first ? "memory.limit_in_bytes" : "memory.max");
+            limits_lowest(folder, length, first ? "memory.limit_in_bytes" : "memory.max");
         if (found && (!least || found < least))
             least = found;
     }
@@ -152,7 +165,7 @@ bool limits_fit_caches(struct settings *settings, unsigned long long memory,
         settings->reply_megabytes = least_of(settings->reply_megabytes, memory / 4);
     }
     if (address_space) {
-        unsigned long long needed = KIB * limits_address_space(settings, stack_size());
+        unsigned long long needed = KIB * limits_address_space(settings, limits_stack_size());
         unsigned long long rest = address_space > needed ? address_space - needed : 0;
         /* BASE has the smallest ones in it */
         settings->token_megabytes = least_of(settings->token_megabytes, 8 * MIB + rest / 2);
@@ -164,7 +177,7 @@ bool limits_fit_caches(struct settings *settings, unsigned long long memory,
 void limits_fit(struct settings *settings)
 {
     unsigned long long memory = limits_cgroup("/sys/fs/cgroup", "/proc/self/cgroup");
-    unsigned long long address_space = mapping_limit();
+    unsigned long long address_space = limits_mapping();
     unsigned tokens = settings->token_megabytes, replies = settings->reply_megabytes;
     if (address_space)
         mallopt(M_ARENA_MAX, HEAPS);

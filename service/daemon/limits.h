@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The limits that the system sets to this process: what the daemon needs is checked before DDS
- * starts, which ends the process where it lacks a descriptor or memory. */
+/* The limits that the system sets to this process. They are checked before DDS starts, which ends
+ * the process where it lacks a descriptor or memory. */
 #ifndef PERCUSS_DAEMON_LIMITS_H
 #define PERCUSS_DAEMON_LIMITS_H
 
@@ -16,6 +16,10 @@ enum percuss_status limits_check(const struct settings *settings, struct fault *
 /* Has the caches of states and replies, and the allocator, keep to the memory that the control
  * group and the process may have, and logs that. Before there are threads. */
 void limits_fit(struct settings *settings);
+
+/* Whether the process may access a file or folder in that `mode` (access(2)), or can make it.
+ * PERCUSS_BAD_REQUEST with "PATH: ...". */
+enum percuss_status limits_check_place(const char *path, int mode, struct fault *fault);
 
 /* Bytes that a control group's memory.max (of version 1: memory.limit_in_bytes) allows, or those of
  * a group above it; 0: no limit is known. `root` is where control groups are mounted,

@@ -3,16 +3,107 @@
 
 #include "daemon/log.h"
 
+#include <dds/ddsrt/log.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/text.h"
-#include "daemon/log_rate.h"
 #include "exchange/clock.h"
+
+uint64_t log_rate_kind(const char *format, const char *message)
+{
+    char plain[LOG_RATE_SAMPLE];
+    size_t size = 0;
+    const char *at = strcmp(format, "%s") == 0 ? message : format;
+    /* a run of digits counts as one */
+    for (; *at && size < sizeof plain - 1; at++) {
+        bool digit = *at >= '0' && *at <= '9';
+        if (!digit || size == 0 || plain[size - 1] != '0')
+            plain[size++] = digit ? '0' : *at;
+    }
+    plain[size] = '\0';
+    struct hasher hasher = {0};
+    hash_text(&hasher, plain);
+    uint64_t kind = hash_digest(&hasher).first;
+    return kind ? kind : 1;
+}
+
+static bool log_rate_is_over(const struct log_kind *kind, double now)
+{
+    return now - kind->begun >= LOG_RATE_SECONDS;
+}
+
+/* That of the kind, or a free one, or the one that all further kinds share. A kind that waits for
+ * its sum to be taken is not free. */
+static struct log_kind *log_rate_find(struct log_rate *rate, uint64_t kind, double now)
+{
+    struct log_kind *free = NULL;
+    for (size_t i = 0; i < LOG_RATE_KINDS; i++) {
+        struct log_kind *at = &rate->kinds[i];
+        if (at->kind == kind)
+            return at;
+        if (!free && (!at->kind || (at->lines <= LOG_RATE_LINES && log_rate_is_over(at, now))))
+            free = at;
+    }
+    if (!free)
+        return &rate->kinds[LOG_RATE_KINDS];
+    *free = (struct log_kind){.kind = kind, .begun = now};
+    return free;
+}
+
+bool log_rate_admits(struct log_rate *rate, uint64_t kind, enum log_level level,
+                     const char *message, double now)
+{
+    struct log_kind *found = log_rate_find(rate, kind, now);
+    /* a new period where nothing of the last one is left to be told */
+    if (found->lines <= LOG_RATE_LINES && log_rate_is_over(found, now))
+        *found = (struct log_kind){.kind = kind, .begun = now};
+    if (++found->lines <= LOG_RATE_LINES)
+        return true;
+    if (found->lines == LOG_RATE_LINES + 1 || level < found->level)
+        found->level = level;
+    snprintf(found->sample, sizeof found->sample, "%s", message);
+    return false;
+}
+
+/* "8,123" */
+static void log_rate_write_count(char text[32], unsigned long count)
+{
+    char digits[24];
+    size_t length = (size_t)snprintf(digits, sizeof digits, "%lu", count), size = 0;
+    for (size_t i = 0; i < length; i++) {
+        if (i > 0 && (length - i) % 3 == 0)
+            text[size++] = ',';
+        text[size++] = digits[i];
+    }
+    text[size] = '\0';
+}
+
+bool log_rate_sum(struct log_rate *rate, double now, bool all, enum log_level *level, char *text,
+                  size_t size)
+{
+    for (size_t i = 0; i <= LOG_RATE_KINDS; i++) {
+        struct log_kind *kind = &rate->kinds[i];
+        if (kind->lines <= LOG_RATE_LINES || !(all || log_rate_is_over(kind, now)))
+            continue;
+        char count[32];
+        log_rate_write_count(count, kind->lines - LOG_RATE_LINES);
+        *level = kind->level;
+        snprintf(text, size, "and %s more in %.0f s%s: %s", count, fmax(1.0, now - kind->begun),
+                 i == LOG_RATE_KINDS ? " of several kinds" : "", kind->sample);
+        *kind = (struct log_kind){.kind = 0};
+        return true;
+    }
+    return false;
+}
 
 /* Bytes: of a message; of a line, in which JSON writes a byte as six at most. */
 enum { MESSAGE_SIZE = 1200, LINE_SIZE = 6 * MESSAGE_SIZE + 200, ID_SIZE = 33 };
@@ -46,7 +137,7 @@ void log_limit_rate(void)
 }
 
 /* "2026-11-22T22:21:05.123Z" */
-static void write_time(struct text *line)
+static void log_write_time(struct text *line)
 {
     char seconds[32];
     struct timespec now;
@@ -57,7 +148,7 @@ static void write_time(struct text *line)
     text_format(line, "%s.%03ldZ", seconds, now.tv_nsec / 1000000);
 }
 
-static void write_id(char id[ID_SIZE], const uint8_t client[16])
+static void log_write_id(char id[ID_SIZE], const uint8_t client[16])
 {
     for (int i = 0; i < 16; i++)
         snprintf(id + 2 * i, 3, "%02x", client[i]);
@@ -84,7 +175,7 @@ static int character_length(const unsigned char *text)
 }
 
 /* In quotes; octets that are no UTF-8 become U+FFFD. */
-static void write_quoted(struct text *line, const char *message)
+static void log_write_quoted(struct text *line, const char *message)
 {
     const unsigned char *at = (const unsigned char *)message;
     text_add(line, "\"");
@@ -103,20 +194,20 @@ static void write_quoted(struct text *line, const char *message)
     text_add(line, "\"");
 }
 
-static void write_json(struct text *line, enum log_level level, const struct log_request *request,
-                       const char *message)
+static void log_write_json(struct text *line, enum log_level level,
+                           const struct log_request *request, const char *message)
 {
     text_add(line, "{\"time\":\"");
-    write_time(line);
+    log_write_time(line);
     text_format(line, "\",\"level\":\"%s\"", log_level_name(level));
     if (request) {
         char id[ID_SIZE];
-        write_id(id, request->client);
+        log_write_id(id, request->client);
         text_format(line, ",\"client\":\"%s\",\"sequence\":%llu", id,
                     (unsigned long long)request->sequence);
     }
     text_add(line, ",\"message\":");
-    write_quoted(line, message);
+    log_write_quoted(line, message);
     text_add(line, "}");
 }
 
@@ -127,18 +218,18 @@ static int journal_level(enum log_level level)
     return levels[level];
 }
 
-static void write_plain(struct text *line, enum log_level level, const struct log_request *request,
-                        char *message)
+static void log_write_plain(struct text *line, enum log_level level,
+                            const struct log_request *request, char *message)
 {
     if (used_format == LOG_JOURNAL) {
         text_format(line, "<%d>", journal_level(level));
     } else {
-        write_time(line);
+        log_write_time(line);
         text_format(line, " %-7s ", log_level_name(level));
     }
     if (request) {
         char id[ID_SIZE];
-        write_id(id, request->client);
+        log_write_id(id, request->client);
         text_format(line, "client %s request %llu: ", id, (unsigned long long)request->sequence);
     }
     /* no control character breaks the line */
@@ -149,14 +240,14 @@ static void write_plain(struct text *line, enum log_level level, const struct lo
     text_add(line, message);
 }
 
-static void put_line(enum log_level level, const struct log_request *request, char *message)
+static void log_put_line(enum log_level level, const struct log_request *request, char *message)
 {
     char line[LINE_SIZE];
     struct text text = text_begin(line, sizeof line - 1);
     if (used_format == LOG_JSON)
-        write_json(&text, level, request, message);
+        log_write_json(&text, level, request, message);
     else
-        write_plain(&text, level, request, message);
+        log_write_plain(&text, level, request, message);
     *text.at++ = '\n';
     /* one write a line, so that lines of several threads do not mix */
     ssize_t written = write(STDERR_FILENO, line, (size_t)(text.at - line));
@@ -164,7 +255,7 @@ static void put_line(enum log_level level, const struct log_request *request, ch
 }
 
 /* Whoever asks for the debug level gets all of it. */
-static bool admits(enum log_level level, const char *format, const char *message)
+static bool log_admits(enum log_level level, const char *format, const char *message)
 {
     if (!rate_is_limited || level == LEVEL_DEBUG)
         return true;
@@ -175,14 +266,14 @@ static bool admits(enum log_level level, const char *format, const char *message
     return admitted;
 }
 
-static void write_line(enum log_level level, const struct log_request *request, const char *format,
-                       va_list arguments)
+static void log_write_line(enum log_level level, const struct log_request *request,
+                           const char *format, va_list arguments)
 {
     char message[MESSAGE_SIZE];
     if (vsnprintf(message, sizeof message, format, arguments) < 0)
         message[0] = '\0';
-    if (admits(level, format, message))
-        put_line(level, request, message);
+    if (log_admits(level, format, message))
+        log_put_line(level, request, message);
 }
 
 void log_sum_up(bool all)
@@ -195,7 +286,7 @@ void log_sum_up(bool all)
         found = log_rate_sum(&rate, clock_now(), all, &level, message, sizeof message);
         pthread_mutex_unlock(&rate_lock);
         if (found)
-            put_line(level, NULL, message);
+            log_put_line(level, NULL, message);
     }
 }
 
@@ -205,7 +296,7 @@ void log_line(enum log_level level, const char *format, ...)
     if (!log_shows(level))
         return;
     va_start(arguments, format);
-    write_line(level, NULL, format, arguments);
+    log_write_line(level, NULL, format, arguments);
     va_end(arguments);
 }
 
@@ -215,6 +306,20 @@ void log_about(enum log_level level, const struct log_request *request, const ch
     if (!log_shows(level))
         return;
     va_start(arguments, format);
-    write_line(level, request, format, arguments);
+    log_write_line(level, request, format, arguments);
     va_end(arguments);
+}
+
+/* The first line says what happened; what security plugins add below are traces of libraries. */
+static void log_dds_line(void *context, const dds_log_data_t *data)
+{
+    (void)context;
+    bool is_error = data->priority & (DDS_LC_FATAL | DDS_LC_ERROR);
+    log_line(is_error ? LEVEL_ERROR : LEVEL_WARNING, "DDS: %.*s", (int)strcspn(data->message, "\n"),
+             data->message);
+}
+
+void log_take_dds(void)
+{
+    dds_set_log_sink(log_dds_line, NULL);
 }

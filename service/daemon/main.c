@@ -1,28 +1,173 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+/* The daemon's program. main() at the end is the order of the world: command line and settings, its
+ * turn where several daemons have the task, the service until a signal, the queued requests, the
+ * end. */
+
+#include <argp.h>
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "daemon/arguments.h"
+#include "catalogue/shipped.h"
 #include "daemon/check_config.h"
 #include "daemon/limits.h"
 #include "daemon/log.h"
 #include "daemon/notify.h"
 #include "daemon/service.h"
+#include "daemon/specimen_lane.h"
 #include "daemon/standby.h"
-#include "daemon/store_care.h"
 #include "exchange/clock.h"
+#include "percuss/habits.h"
 #include "respond/settings.h"
+
+enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, KEY_PARTITION, USAGE = 2 };
+
+const char *argp_program_version = "percussd " PERCUSS_VERSION;
+
+/* The command line. */
+struct arguments {
+    const char *config, *catalogue; /* NULL: not given */
+    char *shipped;                  /* settings used where none are given, for free(); NULL: none */
+    int domain;                     /* -1: not given */
+    const char *partition;          /* NULL: not given; empty: none */
+    int log_format;                 /* enum log_format; -1: not given */
+    bool check_config;
+    const char *check_store; /* file; NULL: not asked for */
+};
+
+static const struct argp_option ARGUMENT_OPTIONS[] = {
+    {"config", 'c', "FILE", 0,
+     "Settings; the shipped percussd.yaml explains each key, and is read where no other file is "
+     "given",
+     0},
+    {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
+    {"domain", 'd', "N", 0,
+     "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
+     0},
+    {"partition", KEY_PARTITION, "NAME", 0,
+     "Answer only those who ask in this DDS partition; goes before PERCUSS_PARTITION, and that "
+     "before the one in the settings; empty: none",
+     0},
+    {"log-format", KEY_FORMAT, "FORMAT", 0,
+     "text, json (an object a line) or journal (of systemd); goes before the one in the settings",
+     0},
+    {"check-config", KEY_CHECK, NULL, 0,
+     "Look at all that a start needs, say ok or what is wrong: of settings and catalogue the first "
+     "error of each",
+     0},
+    {"check-store", KEY_STORE, "FILE", 0,
+     "Look through a store of specimens, or a copy, that no daemon has open", 0},
+    {0},
+};
+
+static int arguments_domain(struct argp_state *state, const char *name, const char *text)
+{
+    char *end;
+    long domain = strtol(text, &end, 10);
+    if (end == text || *end || domain < 0 || domain > SETTINGS_MAX_DOMAIN)
+        argp_error(state, "%s: %s: must be a whole number, 0 to %d", name, text,
+                   SETTINGS_MAX_DOMAIN);
+    return (int)domain;
+}
+
+static const char *arguments_partition(struct argp_state *state, const char *name, const char *text)
+{
+    if (*text && !wire_partition_is_good(text))
+        argp_error(state, "%s: %s: must be " WIRE_PARTITION_RULE ", or empty", name, text);
+    return text;
+}
+
+static int arguments_format(struct argp_state *state, const char *text)
+{
+    for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++) {
+        if (strcmp(text, log_format_name(format)) == 0)
+            return (int)format;
+    }
+    argp_error(state, "--log-format: %s: must be text, journal or json", text);
+    return -1;
+}
+
+/* Values of the environment, unless the command line has them. */
+static void arguments_environment(struct argp_state *state, struct arguments *arguments)
+{
+    const char *domain = getenv("PERCUSS_DOMAIN");
+    if (arguments->domain < 0 && domain && *domain)
+        arguments->domain = arguments_domain(state, "PERCUSS_DOMAIN", domain);
+    const char *partition = getenv("PERCUSS_PARTITION");
+    if (!arguments->partition && partition && *partition)
+        arguments->partition = arguments_partition(state, "PERCUSS_PARTITION", partition);
+}
+
+static error_t arguments_parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    /* files, domain and partition, and the log */
+    case 'c':
+        arguments->config = text;
+        return 0;
+    case 'C':
+        arguments->catalogue = text;
+        return 0;
+    case 'd':
+        arguments->domain = arguments_domain(state, "--domain", text);
+        return 0;
+    case KEY_PARTITION:
+        arguments->partition = arguments_partition(state, "--partition", text);
+        return 0;
+    case KEY_FORMAT:
+        arguments->log_format = arguments_format(state, text);
+        return 0;
+    /* only a check */
+    case KEY_CHECK:
+        arguments->check_config = true;
+        return 0;
+    case KEY_STORE:
+        arguments->check_store = text;
+        return 0;
+    /* all are read */
+    case ARGP_KEY_END:
+        arguments_environment(state, arguments);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+/* Ends the program for --help, --version and, with exit code 2, wrong usage. */
+static struct arguments arguments_read(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = ARGUMENT_OPTIONS,
+        .parser = arguments_parse,
+        .children = habits,
+        .doc =
+            "Answers what impacts do, on DDS."
+            "\vSIGTERM and SIGINT: answers what is waiting and ends. SIGHUP: reads the catalogue "
+            "again; a bad one is logged and the old one stays. SIGUSR1: looks through the store of "
+            "specimens and copies it to the file that the settings name as its backup.",
+    };
+    struct arguments arguments = {.domain = -1, .log_format = -1};
+    argp_err_exit_status = USAGE;
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    /* an administrator's catalogue needs the plain settings, without the shared store */
+    if (!arguments.config && !arguments.check_store)
+        arguments.shipped = arguments.catalogue ? shipped_plain_settings() : shipped_settings();
+    return arguments;
+}
 
 enum { STATUS_SIZE = 400 };
 
-/* More than what follows the draining takes, s; and what the manager is told, who then ends it. */
+/* Longer than the service's end after draining takes, s; and the time for it that the manager
+ * grants before it kills the daemon. */
 static const double APART_SECONDS = 8.0, END_SECONDS = 10.0;
 
 /* Settings file, then command line. */
@@ -52,8 +197,8 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
                      "%s: catalogue: missing: must be given there or as --catalogue FILE", file);
 }
 
-/* Which settings were found where none were given; `look`: it is all that is asked, which is about
- * the catalogue where one is given. */
+/* Says which settings were found where none were given. `look`: on stderr, for --check-config,
+ * which is about the catalogue where one is given. */
 static void name_settings(struct arguments *arguments, bool look)
 {
     if (arguments->shipped && look && !arguments->catalogue)
@@ -86,9 +231,9 @@ static int wait_for_signal(const sigset_t *signals, double seconds)
     return signal_number > 0 ? signal_number : 0;
 }
 
-/* Tells the manager how it goes, and that it goes on: not where a thread has stopped moving for
- * half of the time after which the manager kills the daemon. */
-static void report(struct service *service, const struct notifier *notifier)
+/* Sends the manager the status, and a sign of life unless a thread has not moved for half of the
+ * time after which the manager kills the daemon. */
+static void report_to_manager(struct service *service, const struct notifier *notifier)
 {
     char line[STATUS_SIZE];
     if (notifier->socket < 0)
@@ -106,7 +251,7 @@ static void reload(struct service *service, const struct notifier *notifier)
     notify(notifier, "READY=1");
 }
 
-/* Ends the daemon where its place is another one's, which may answer already. */
+/* Ends the daemon where another one has taken its place and may answer already. */
 static void look_at_place(const char *standby)
 {
     if (!standby[0] || standby_is_held(standby))
@@ -116,7 +261,7 @@ static void look_at_place(const char *standby)
     _exit(EXIT_FAILURE);
 }
 
-/* Until somebody asks for the end. */
+/* Until a signal asks for the end. */
 static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier,
                   const char *standby)
 {
@@ -125,7 +270,7 @@ static void serve(struct service *service, const sigset_t *signals, const struct
     notify(notifier, "READY=1");
     for (;;) {
         look_at_place(standby);
-        report(service, notifier);
+        report_to_manager(service, notifier);
         int signal_number = wait_for_signal(signals, period);
         if (signal_number == SIGHUP)
             reload(service, notifier);
@@ -148,7 +293,7 @@ static bool drain(struct service *service, const sigset_t *signals, double secon
     bool drained = false;
     for (double waited = 0.0; !drained && waited <= seconds; waited += 0.25) {
         drained = service_drain(service, 0.25);
-        report(service, notifier);
+        report_to_manager(service, notifier);
         int signal_number = wait_for_signal(signals, 0.0);
         if (!drained && (signal_number == SIGTERM || signal_number == SIGINT))
             break;
@@ -177,55 +322,40 @@ static bool is_taken_apart(struct service *service)
     return pthread_clockjoin_np(thread, NULL, CLOCK_MONOTONIC, &end) == 0;
 }
 
-int main(int argc, char **argv)
+/* Reads settings and limits and opens the log. False: they are wrong, as stderr says. With
+ * --check-config the limits and the log are left to that. */
+static bool prepare(struct arguments *arguments, struct settings *settings)
 {
-    struct arguments arguments = arguments_read(argc, argv);
-    struct settings settings;
     struct fault fault;
-    /* a store alone, or the settings, which may be all that is to be looked at */
-    if (arguments.check_store)
-        return store_care_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
-    if (gather_settings(&arguments, &settings, &fault) ||
-        (!arguments.check_config && limits_check(&settings, &fault))) {
+    bool check = arguments->check_config;
+    if (gather_settings(arguments, settings, &fault) ||
+        (!check && limits_check(settings, &fault))) {
         fprintf(stderr, "percussd: %s\n", fault.text);
-        free(arguments.shipped);
-        return EXIT_FAILURE;
+        free(arguments->shipped);
+        return false;
     }
-    if (!arguments.check_config) {
-        log_limit(settings.log_level);
-        log_use(settings.log_format);
+    if (!check) {
+        log_limit(settings->log_level);
+        log_use(settings->log_format);
         log_limit_rate();
-        limits_fit(&settings);
+        limits_fit(settings);
     }
-    name_settings(&arguments, arguments.check_config);
-    if (arguments.check_config)
-        return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
-    struct notifier notifier = notifier_open();
-    /* blocked before there are threads, so that no thread takes them */
-    sigset_t signals = block_signals();
-    /* its turn, where several have the task */
-    uint8_t server[16];
-    enum standby_end place = settings.standby[0]
-                                 ? standby_wait(&settings, &signals, &notifier, server, &fault)
-                                 : STANDBY_TAKEN;
-    if (place == STANDBY_STOPPED)
-        return EXIT_SUCCESS;
-    struct service *service = NULL;
-    if (place == STANDBY_TAKEN)
-        service = service_create(&settings, settings.standby[0] ? server : NULL, &fault);
-    if (!service) {
-        log_line(LEVEL_ERROR, "%s", fault.text);
-        return EXIT_FAILURE;
-    }
-    /* until a signal, and then what is still queued */
-    serve(service, &signals, &notifier, settings.standby);
-    if (!drain(service, &signals, settings.drain_seconds, &notifier)) {
+    name_settings(arguments, check);
+    return true;
+}
+
+/* Serves until a signal, then answers the queued requests and ends. An exit code. */
+static int live(struct service *service, const struct settings *settings, const sigset_t *signals,
+                struct notifier *notifier)
+{
+    serve(service, signals, notifier, settings->standby);
+    bool drained = drain(service, signals, settings->drain_seconds, notifier);
+    log_sum_up(true);
+    if (!drained) {
         /* a thread still works, so nothing is taken apart */
-        log_sum_up(true);
         log_line(LEVEL_ERROR, "ends with requests unanswered");
         _exit(EXIT_FAILURE);
     }
-    log_sum_up(true);
     if (!is_taken_apart(service)) {
         log_line(LEVEL_ERROR,
                  "DDS does not end within %g s (has this machine lost its address?): "
@@ -233,7 +363,40 @@ int main(int argc, char **argv)
                  APART_SECONDS);
         _exit(EXIT_FAILURE);
     }
-    notifier_close(&notifier);
+    notifier_close(notifier);
     log_line(LEVEL_INFO, "ended");
     return EXIT_SUCCESS;
+}
+
+int main(int argc, char **argv)
+{
+    struct arguments arguments = arguments_read(argc, argv);
+    struct settings settings;
+    struct fault fault;
+    uint8_t server[16];
+    /* a store alone, or the settings, which may be all that is to be checked */
+    if (arguments.check_store)
+        return specimen_lane_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
+    if (!prepare(&arguments, &settings))
+        return EXIT_FAILURE;
+    if (arguments.check_config)
+        return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
+    /* signals are blocked before there are threads, so that no thread takes them */
+    struct notifier notifier = notifier_open();
+    sigset_t signals = block_signals();
+    /* its turn, where several daemons have the task */
+    const bool shares_task = settings.standby[0];
+    enum standby_end place =
+        shares_task ? standby_wait(&settings, &signals, &notifier, server, &fault) : STANDBY_TAKEN;
+    if (place == STANDBY_STOPPED)
+        return EXIT_SUCCESS;
+    /* catalogue, tables, store, DDS, threads */
+    struct service *service = NULL;
+    if (place == STANDBY_TAKEN)
+        service = service_create(&settings, shares_task ? server : NULL, &fault);
+    if (!service) {
+        log_line(LEVEL_ERROR, "%s", fault.text);
+        return EXIT_FAILURE;
+    }
+    return live(service, &settings, &signals, &notifier);
 }

@@ -10,18 +10,54 @@
 #include "exchange/key_map.h"
 #include "exchange/reply_store.h"
 
+void job_init(struct job *job, const struct job_kind *kind, size_t items, struct digest owner)
+{
+    job->kind = kind;
+    job->items = items;
+    job->owner = owner;
+    job->next = 0;
+    atomic_init(&job->left, items);
+}
+
+/* An item is settled. */
+static enum job_end job_settle(struct job *job)
+{
+    if (atomic_fetch_sub(&job->left, 1) > 1)
+        return JOB_GOES_ON;
+    job->kind->report(job);
+    return JOB_ENDED;
+}
+
+enum job_end job_run(struct job *job, size_t item, struct responder *responder)
+{
+    return job->kind->run(job, item, responder) ? job_settle(job) : JOB_LONG;
+}
+
+static enum job_end job_refuse_item(struct job *job, size_t item)
+{
+    job->kind->refuse(job, item);
+    return job_settle(job);
+}
+
+void job_refuse(struct job *job)
+{
+    for (size_t i = 0; i < job->items; i++)
+        job_refuse_item(job, i);
+    job->kind->release(job);
+}
+
 /* Of a client whose item took long so many more are passed on untried: trying them all costs others
  * the time that each is given before. */
 enum { EXPECTED_CLIENTS = 64, UNTRIED = 16 };
 
 /* A client who has jobs that wait or are being done. */
-struct party {
+struct client_queue {
     struct key_node node; /* key: the owner of its jobs */
-    TAILQ_HEAD(party_jobs, job) jobs;
-    size_t waiting;          /* jobs */
-    size_t running;          /* items handed out and not yet done */
-    unsigned untried;        /* items to be passed on */
-    TAILQ_ENTRY(party) turn; /* while jobs wait */
+    TAILQ_HEAD(waiting_jobs, job) jobs;
+    size_t waiting;                 /* jobs */
+    size_t running;                 /* items handed out and not yet done */
+    unsigned untried;               /* items to be passed on */
+    TAILQ_ENTRY(client_queue) turn; /* while jobs wait */
 };
 
 struct queue {
@@ -31,9 +67,10 @@ struct queue {
     size_t length;  /* jobs that wait */
     size_t running; /* items handed out and not yet done */
     bool closed;
-    struct key_map parties;
-    TAILQ_HEAD(party_turns, party) turns; /* whose jobs wait; the first one is served next */
-    LIST_HEAD(live_jobs, job) live;       /* that wait or are being done */
+    struct key_map clients;
+    TAILQ_HEAD(client_turns, client_queue)
+    turns;                          /* whose jobs wait; the first one is served next */
+    LIST_HEAD(live_jobs, job) live; /* that wait or are being done */
 };
 
 struct queue *queue_create(size_t capacity, size_t share)
@@ -41,7 +78,7 @@ struct queue *queue_create(size_t capacity, size_t share)
     struct queue *queue = calloc(1, sizeof *queue);
     if (!queue)
         return NULL;
-    if (!key_map_create(&queue->parties, EXPECTED_CLIENTS)) {
+    if (!key_map_create(&queue->clients, EXPECTED_CLIENTS)) {
         free(queue);
         return NULL;
     }
@@ -59,40 +96,40 @@ struct queue *queue_create(size_t capacity, size_t share)
     return queue;
 }
 
-static struct party *party_find(const struct queue *queue, struct digest owner)
+static struct client_queue *client_queue_find(const struct queue *queue, struct digest owner)
 {
-    struct key_node *node = key_map_find(&queue->parties, owner);
-    return node ? KEY_MAP_OWNER(node, struct party, node) : NULL;
+    struct key_node *node = key_map_find(&queue->clients, owner);
+    return node ? KEY_MAP_OWNER(node, struct client_queue, node) : NULL;
 }
 
 /* NULL: out of memory. */
-static struct party *party_open(struct queue *queue, struct digest owner)
+static struct client_queue *client_queue_open(struct queue *queue, struct digest owner)
 {
-    struct party *party = party_find(queue, owner);
-    if (party)
-        return party;
-    party = calloc(1, sizeof *party);
-    if (!party)
+    struct client_queue *client = client_queue_find(queue, owner);
+    if (client)
+        return client;
+    client = calloc(1, sizeof *client);
+    if (!client)
         return NULL;
-    party->node.key = owner;
-    TAILQ_INIT(&party->jobs);
-    key_map_insert(&queue->parties, &party->node);
-    return party;
+    client->node.key = owner;
+    TAILQ_INIT(&client->jobs);
+    key_map_insert(&queue->clients, &client->node);
+    return client;
 }
 
-static void party_drop_if_idle(struct queue *queue, struct party *party)
+static void client_queue_drop_if_idle(struct queue *queue, struct client_queue *client)
 {
-    if (party->waiting > 0 || party->running > 0)
+    if (client->waiting > 0 || client->running > 0)
         return;
-    key_map_remove(&queue->parties, &party->node);
-    free(party);
+    key_map_remove(&queue->clients, &client->node);
+    free(client);
 }
 
 void queue_free(struct queue *queue)
 {
     if (!queue)
         return;
-    key_map_release(&queue->parties);
+    key_map_release(&queue->clients);
     pthread_cond_destroy(&queue->drained);
     pthread_cond_destroy(&queue->filled);
     pthread_mutex_destroy(&queue->lock);
@@ -100,59 +137,59 @@ void queue_free(struct queue *queue)
 }
 
 /* The job waits, after all others of its client. */
-static void push(struct queue *queue, struct party *party, struct job *job)
+static void client_queue_push(struct queue *queue, struct client_queue *client, struct job *job)
 {
-    TAILQ_INSERT_TAIL(&party->jobs, job, waiting);
-    if (party->waiting++ == 0)
-        TAILQ_INSERT_TAIL(&queue->turns, party, turn);
+    TAILQ_INSERT_TAIL(&client->jobs, job, waiting);
+    if (client->waiting++ == 0)
+        TAILQ_INSERT_TAIL(&queue->turns, client, turn);
     queue->length++;
 }
 
-static void pull(struct queue *queue, struct party *party, struct job *job)
+static void client_queue_pull(struct queue *queue, struct client_queue *client, struct job *job)
 {
-    TAILQ_REMOVE(&party->jobs, job, waiting);
-    if (--party->waiting == 0)
-        TAILQ_REMOVE(&queue->turns, party, turn);
+    TAILQ_REMOVE(&client->jobs, job, waiting);
+    if (--client->waiting == 0)
+        TAILQ_REMOVE(&queue->turns, client, turn);
     queue->length--;
 }
 
 /* Takes out the last job that has not begun of whoever has most waiting, if that is more than
  * `others`; NULL: nobody has. */
-static struct job *displace(struct queue *queue, size_t others)
+static struct job *queue_displace(struct queue *queue, size_t others)
 {
-    struct party *party, *most = NULL;
-    TAILQ_FOREACH(party, &queue->turns, turn)
+    struct client_queue *client, *most = NULL;
+    TAILQ_FOREACH(client, &queue->turns, turn)
     {
-        if (!most || party->waiting > most->waiting)
-            most = party;
+        if (!most || client->waiting > most->waiting)
+            most = client;
     }
     if (!most || most->waiting <= others)
         return NULL;
-    struct job *job = TAILQ_LAST(&most->jobs, party_jobs);
+    struct job *job = TAILQ_LAST(&most->jobs, waiting_jobs);
     while (job && job->next > 0)
-        job = TAILQ_PREV(job, party_jobs, waiting);
+        job = TAILQ_PREV(job, waiting_jobs, waiting);
     if (!job)
         return NULL;
-    pull(queue, most, job);
+    client_queue_pull(queue, most, job);
     LIST_REMOVE(job, live);
-    party_drop_if_idle(queue, most);
+    client_queue_drop_if_idle(queue, most);
     return job;
 }
 
 /* The lock is held. */
-static bool put(struct queue *queue, struct job *job, struct job **displaced)
+static bool queue_put_locked(struct queue *queue, struct job *job, struct job **displaced)
 {
-    struct party *party = party_open(queue, job->owner);
-    if (!party)
+    struct client_queue *client = client_queue_open(queue, job->owner);
+    if (!client)
         return false;
     /* one more of this client must still be no more than the other one keeps */
     if (queue->length >= queue->capacity)
-        *displaced = displace(queue, party->waiting + 1);
+        *displaced = queue_displace(queue, client->waiting + 1);
     if (queue->length >= queue->capacity) {
-        party_drop_if_idle(queue, party);
+        client_queue_drop_if_idle(queue, client);
         return false;
     }
-    push(queue, party, job);
+    client_queue_push(queue, client, job);
     job->queue = queue;
     LIST_INSERT_HEAD(&queue->live, job, live);
     return true;
@@ -162,7 +199,7 @@ bool queue_put(struct queue *queue, struct job *job, struct job **displaced)
 {
     *displaced = NULL;
     pthread_mutex_lock(&queue->lock);
-    bool accepted = !queue->closed && put(queue, job, displaced);
+    bool accepted = !queue->closed && queue_put_locked(queue, job, displaced);
     if (accepted && job->items > 1)
         pthread_cond_broadcast(&queue->filled);
     else if (accepted)
@@ -172,37 +209,37 @@ bool queue_put(struct queue *queue, struct job *job, struct job **displaced)
 }
 
 /* The client whose turn it is; NULL: nobody who waits may have more done at once. */
-static struct party *find_next(const struct queue *queue)
+static struct client_queue *queue_find_next(const struct queue *queue)
 {
-    struct party *party;
-    TAILQ_FOREACH(party, &queue->turns, turn)
+    struct client_queue *client;
+    TAILQ_FOREACH(client, &queue->turns, turn)
     {
-        if (party->running < queue->share)
-            return party;
+        if (client->running < queue->share)
+            return client;
     }
     return NULL;
 }
 
 struct job *queue_take(struct queue *queue, size_t *item)
 {
-    struct party *party;
+    struct client_queue *client;
     struct job *job = NULL;
     pthread_mutex_lock(&queue->lock);
-    while (!(party = find_next(queue)) && !(queue->closed && queue->length == 0))
+    while (!(client = queue_find_next(queue)) && !(queue->closed && queue->length == 0))
         pthread_cond_wait(&queue->filled, &queue->lock);
-    if (party) {
-        job = TAILQ_FIRST(&party->jobs);
+    if (client) {
+        job = TAILQ_FIRST(&client->jobs);
         *item = job->next++;
-        party->running++;
+        client->running++;
         queue->running++;
         /* to the end of the turns, and the other items to the end of the client's jobs: others need
          * not wait for all of it */
-        pull(queue, party, job);
+        client_queue_pull(queue, client, job);
         if (job->next < job->items)
-            push(queue, party, job);
-        if (party->waiting > 0) {
-            TAILQ_REMOVE(&queue->turns, party, turn);
-            TAILQ_INSERT_TAIL(&queue->turns, party, turn);
+            client_queue_push(queue, client, job);
+        if (client->waiting > 0) {
+            TAILQ_REMOVE(&queue->turns, client, turn);
+            TAILQ_INSERT_TAIL(&queue->turns, client, turn);
         }
     }
     pthread_mutex_unlock(&queue->lock);
@@ -212,19 +249,19 @@ struct job *queue_take(struct queue *queue, size_t *item)
 void queue_done(struct queue *queue, struct digest owner, struct job *ended)
 {
     pthread_mutex_lock(&queue->lock);
-    struct party *party = party_find(queue, owner);
+    struct client_queue *client = client_queue_find(queue, owner);
     if (ended)
         LIST_REMOVE(ended, live);
     /* where a client had its share, one who waits may go on; and the last one ends all */
-    if (party->running-- == queue->share || queue->closed)
+    if (client->running-- == queue->share || queue->closed)
         pthread_cond_broadcast(&queue->filled);
-    party_drop_if_idle(queue, party);
+    client_queue_drop_if_idle(queue, client);
     if (--queue->running == 0 && queue->length == 0)
         pthread_cond_broadcast(&queue->drained);
     pthread_mutex_unlock(&queue->lock);
 }
 
-void queue_retire(struct job *job)
+static void queue_retire(struct job *job)
 {
     struct queue *queue = job->queue;
     pthread_mutex_lock(&queue->lock);
@@ -232,22 +269,22 @@ void queue_retire(struct job *job)
     pthread_mutex_unlock(&queue->lock);
 }
 
-static bool is_of(const struct job *job, struct digest owner)
+static bool job_is_of(const struct job *job, struct digest owner)
 {
     return job->owner.first == owner.first && job->owner.second == owner.second;
 }
 
 /* The lock is held. */
-static bool others_wait(const struct queue *queue, const struct job *job)
+static bool queue_others_wait_locked(const struct queue *queue, const struct job *job)
 {
-    const struct party *first = TAILQ_FIRST(&queue->turns);
-    return first && (TAILQ_NEXT(first, turn) || !is_of(job, first->node.key));
+    const struct client_queue *first = TAILQ_FIRST(&queue->turns);
+    return first && (TAILQ_NEXT(first, turn) || !job_is_of(job, first->node.key));
 }
 
 bool queue_others_wait(struct queue *queue, const struct job *job)
 {
     pthread_mutex_lock(&queue->lock);
-    bool others = others_wait(queue, job);
+    bool others = queue_others_wait_locked(queue, job);
     pthread_mutex_unlock(&queue->lock);
     return others;
 }
@@ -255,17 +292,17 @@ bool queue_others_wait(struct queue *queue, const struct job *job)
 void queue_note_long(struct queue *queue, struct digest owner)
 {
     pthread_mutex_lock(&queue->lock);
-    party_find(queue, owner)->untried = UNTRIED;
+    client_queue_find(queue, owner)->untried = UNTRIED;
     pthread_mutex_unlock(&queue->lock);
 }
 
 bool queue_is_long(struct queue *queue, const struct job *job)
 {
     pthread_mutex_lock(&queue->lock);
-    struct party *party = party_find(queue, job->owner);
-    bool is_long = party->untried > 0 && others_wait(queue, job);
+    struct client_queue *client = client_queue_find(queue, job->owner);
+    bool is_long = client->untried > 0 && queue_others_wait_locked(queue, job);
     if (is_long)
-        party->untried--;
+        client->untried--;
     pthread_mutex_unlock(&queue->lock);
     return is_long;
 }
@@ -308,12 +345,12 @@ bool queue_drain(struct queue *queue, double seconds)
 }
 
 /* Takes out a job that has not begun; the lock is held. */
-static void take_out(struct queue *queue, struct job *job)
+static void queue_take_out(struct queue *queue, struct job *job)
 {
-    struct party *party = party_find(queue, job->owner);
-    pull(queue, party, job);
+    struct client_queue *client = client_queue_find(queue, job->owner);
+    client_queue_pull(queue, client, job);
     LIST_REMOVE(job, live);
-    party_drop_if_idle(queue, party);
+    client_queue_drop_if_idle(queue, client);
     if (queue->running == 0 && queue->length == 0)
         pthread_cond_broadcast(&queue->drained);
     /* whoever waits for more in a queue that is closed waits in vain */
@@ -329,11 +366,11 @@ bool queue_withdraw(struct queue *queue, const struct request_name *name, struct
     pthread_mutex_lock(&queue->lock);
     LIST_FOREACH(job, &queue->live, live)
     {
-        if (is_of(job, owner) && job->kind->withdraw && job->kind->withdraw(job, name))
+        if (job_is_of(job, owner) && job->kind->withdraw && job->kind->withdraw(job, name))
             break;
     }
     if (job && job->next == 0) {
-        take_out(queue, job);
+        queue_take_out(queue, job);
         *withdrawn = job;
     }
     pthread_mutex_unlock(&queue->lock);
@@ -358,4 +395,76 @@ size_t queue_length(struct queue *queue)
     size_t length = queue->length;
     pthread_mutex_unlock(&queue->lock);
     return length;
+}
+
+/* Demoted items: an item that takes long while others wait becomes a job by itself, for the workers
+ * of a slower queue. */
+
+struct demoted {
+    struct job job;
+    struct job *parent;
+    size_t item;
+    bool was_last; /* the parent has ended with it */
+};
+
+static bool demoted_run(struct job *job, size_t item, struct responder *responder)
+{
+    struct demoted *demoted = (struct demoted *)job;
+    (void)item;
+    enum job_end end = job_run(demoted->parent, demoted->item, responder);
+    demoted->was_last = end == JOB_ENDED;
+    return end != JOB_LONG;
+}
+
+static void demoted_refuse(struct job *job, size_t item)
+{
+    struct demoted *demoted = (struct demoted *)job;
+    (void)item;
+    demoted->was_last = job_refuse_item(demoted->parent, demoted->item) == JOB_ENDED;
+}
+
+/* The parent has reported. */
+static void demoted_report(struct job *job)
+{
+    (void)job;
+}
+
+static void demoted_cancel(struct job *job)
+{
+    struct job *parent = ((struct demoted *)job)->parent;
+    parent->kind->cancel(parent);
+}
+
+/* Whoever cancels the errand finds its parent there till then. */
+static void demoted_release(struct job *job)
+{
+    struct demoted *demoted = (struct demoted *)job;
+    if (demoted->was_last) {
+        queue_retire(demoted->parent);
+        demoted->parent->kind->release(demoted->parent);
+    }
+    free(demoted);
+}
+
+/* Its parent is told of. */
+static const struct job_kind demoted_kind = {
+    demoted_run, demoted_refuse, demoted_report, demoted_cancel, demoted_release, NULL, NULL};
+
+enum job_end queue_demote(struct queue *slower, struct job *job, size_t item)
+{
+    struct job *displaced = NULL;
+    struct demoted *demoted = calloc(1, sizeof *demoted);
+    if (!demoted)
+        return job_refuse_item(job, item);
+    demoted->parent = job;
+    demoted->item = item;
+    job_init(&demoted->job, &demoted_kind, 1, job->owner);
+    /* once it is there, it and its parent may end at any time */
+    bool accepted = queue_put(slower, &demoted->job, &displaced);
+    if (displaced)
+        job_refuse(displaced);
+    if (accepted)
+        return JOB_GOES_ON;
+    free(demoted);
+    return job_refuse_item(job, item);
 }

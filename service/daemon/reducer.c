@@ -16,10 +16,87 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "daemon/limits.h"
 #include "daemon/log.h"
+
+/* The folder of reduced bodies, which daemons with different catalogues may share. */
+
+enum { NAME_LENGTH = 64 }; /* of an order: a hash in hexadecimal */
+
+static const double DAY = 86400.0; /* s */
+/* A process of another machine, which is not seen here, may be in work that long. */
+static const double LEFT_BEHIND_DAYS = 2.0;
+
+static const struct body_order *cache_find_order(const struct body_set *set, const char *name)
+{
+    for (size_t i = 0; i < set->order_count; i++)
+        if (strncmp(set->orders[i].name, name, NAME_LENGTH) == 0)
+            return &set->orders[i];
+    return NULL;
+}
+
+/* "1234.messages": a file of a process that is there no more. */
+static bool cache_is_orphan(const char *suffix)
+{
+    static const char *const kinds[] = {".h5", ".h5.part", ".messages", ".yaml"};
+    char *end;
+    long process = strtol(suffix, &end, 10);
+    bool known = false;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        known = known || strcmp(end, kinds[i]) == 0;
+    return known && process > 0 && kill((pid_t)process, 0) != 0 && errno == ESRCH;
+}
+
+/* The days that a file stays unused before it goes; negative: for ever. */
+static double cache_days_of(const char *name, const struct body_set *set, double days)
+{
+    if (strspn(name, "0123456789abcdef") != NAME_LENGTH || name[NAME_LENGTH] != '.')
+        return -1.0;
+    const char *suffix = name + NAME_LENGTH + 1;
+    bool result =
+        strcmp(suffix, "h5") == 0 || strcmp(suffix, "failed") == 0 || strcmp(suffix, "killed") == 0;
+    if (result)
+        return cache_find_order(set, name) ? -1.0 : days;
+    return cache_is_orphan(suffix) ? LEFT_BEHIND_DAYS : -1.0;
+}
+
+static void cache_mark(int folder, const struct body_set *set)
+{
+    for (size_t i = 0; i < set->order_count; i++) {
+        char name[NAME_LENGTH + 4];
+        snprintf(name, sizeof name, "%.64s.h5", set->orders[i].name);
+        if (set->orders[i].made)
+            utimensat(folder, name, NULL, 0);
+    }
+}
+
+void reducer_tidy(const char *folder, const struct body_set *set, double days)
+{
+    struct dirent *entry;
+    struct stat file;
+    DIR *stream = opendir(folder);
+    if (!stream)
+        return;
+    cache_mark(dirfd(stream), set);
+    time_t now = time(NULL);
+    while ((entry = readdir(stream))) {
+        double stays = cache_days_of(entry->d_name, set, days);
+        if (stays < 0.0 || fstatat(dirfd(stream), entry->d_name, &file, AT_SYMLINK_NOFOLLOW) != 0)
+            continue;
+        double unused = difftime(now, file.st_mtime) / DAY;
+        if (S_ISREG(file.st_mode) && unused > stays &&
+            unlinkat(dirfd(stream), entry->d_name, 0) == 0)
+            log_line(LEVEL_INFO, "%s/%s: unused for %.0f days: deleted", folder, entry->d_name,
+                     unused);
+    }
+    closedir(stream);
+}
+
+/* The child process. */
 
 static const int NICE = 15; /* below the long lane, which somebody waits for */
 
@@ -28,17 +105,18 @@ enum { BODY, MESSAGES, MATERIAL };
 static const char REFUSED[] = ".failed", KILLED[] = ".killed"; /* files with the reason */
 
 /* Whether a file of the folder is the reason of a failure of that kind. */
-static bool is_reason(const char *name, const char *kind)
+static bool reducer_is_reason(const char *name, const char *kind)
 {
     return strlen(name) == 64 + strlen(kind) && strcmp(name + 64, kind) == 0;
 }
 
-static void forget(const struct reducer *reducer, bool refusals)
+static void reducer_forget(const struct reducer *reducer, bool refusals)
 {
     struct dirent *entry;
     DIR *folder = reducer->folder[0] ? opendir(reducer->folder) : NULL;
     while (folder && (entry = readdir(folder)))
-        if (is_reason(entry->d_name, KILLED) || (refusals && is_reason(entry->d_name, REFUSED)))
+        if (reducer_is_reason(entry->d_name, KILLED) ||
+            (refusals && reducer_is_reason(entry->d_name, REFUSED)))
             unlinkat(dirfd(folder), entry->d_name, 0);
     if (folder)
         closedir(folder);
@@ -50,16 +128,16 @@ void reducer_begin(struct reducer *reducer, const char *folder)
     /* one level: what is above it is for an administrator to make */
     if (folder[0])
         mkdir(folder, 0755);
-    forget(reducer, true);
+    reducer_forget(reducer, true);
 }
 
 void reducer_retry(struct reducer *reducer)
 {
     reducer->halted[0] = '\0';
-    forget(reducer, false);
+    reducer_forget(reducer, false);
 }
 
-static void drop_files(struct reducer *reducer)
+static void reducer_drop_files(struct reducer *reducer)
 {
     for (int i = 0; i < REDUCER_FILES; i++) {
         if (reducer->files[i])
@@ -71,8 +149,8 @@ static void drop_files(struct reducer *reducer)
 
 /* Tells who asks for what is, or was, in work; two bodies may be of one mesh. */
 static void __attribute__((format(printf, 4, 5)))
-tell(const struct reducer *reducer, const struct body_set *set, enum percuss_status status,
-     const char *format, ...)
+reducer_tell(const struct reducer *reducer, const struct body_set *set, enum percuss_status status,
+             const char *format, ...)
 {
     char text[BODY_NEWS_SIZE];
     va_list arguments;
@@ -85,7 +163,7 @@ tell(const struct reducer *reducer, const struct body_set *set, enum percuss_sta
 }
 
 static void __attribute__((format(printf, 2, 3)))
-halt(struct reducer *reducer, const char *format, ...)
+reducer_halt(struct reducer *reducer, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -101,7 +179,7 @@ static char *result_path(const struct reducer *reducer, const char *name, const 
 }
 
 /* Files of this process alone, as several daemons may share the folder. */
-static bool name_files(struct reducer *reducer)
+static bool reducer_name_files(struct reducer *reducer)
 {
     static const char *const kinds[REDUCER_FILES] = {"h5", "messages", "yaml"};
     for (int i = 0; i < REDUCER_FILES; i++) {
@@ -114,7 +192,7 @@ static bool name_files(struct reducer *reducer)
     return true;
 }
 
-static bool write_text(const char *path, const char *text)
+static bool reducer_write_text(const char *path, const char *text)
 {
     struct atomic_file aside;
     int file = path ? atomic_file_create(&aside, path, 0666, NULL) : -1;
@@ -133,7 +211,7 @@ static bool write_text(const char *path, const char *text)
 }
 
 /* The program beside this one, else as PATH knows it. */
-static void find_program(char path[PATH_MAX])
+static void reducer_find_program(char path[PATH_MAX])
 {
     static const char name[] = "percuss-reduce";
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - sizeof name);
@@ -148,13 +226,13 @@ static void find_program(char path[PATH_MAX])
 }
 
 /* 0, or an error's number. Signals are as they were before this program blocked its own. */
-static int spawn(struct reducer *reducer, char **arguments)
+static int reducer_spawn(struct reducer *reducer, char **arguments)
 {
     char program[PATH_MAX];
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t none, pipe;
-    find_program(program);
+    reducer_find_program(program);
     unlink(reducer->files[MESSAGES]);
     /* messages to their file, and nothing else of ours */
     posix_spawn_file_actions_init(&actions);
@@ -182,8 +260,8 @@ static int spawn(struct reducer *reducer, char **arguments)
     return error;
 }
 
-static void start(struct reducer *reducer, const struct body_set *set,
-                  const struct body_order *order)
+static void reducer_start(struct reducer *reducer, const struct body_set *set,
+                          const struct body_order *order)
 {
     char name[] = "percuss-reduce", progress[] = "--progress=1";
     char output[] = "-o", catalogue[] = "-C", files[] = "--";
@@ -192,7 +270,7 @@ static void start(struct reducer *reducer, const struct body_set *set,
     snprintf(reducer->id, sizeof reducer->id, "%s", order->id);
     snprintf(reducer->name, sizeof reducer->name, "%s", order->name);
     reducer->done = 0.0;
-    int error = name_files(reducer) ? 0 : ENOMEM;
+    int error = reducer_name_files(reducer) ? 0 : ENOMEM;
     /* the order's options, and the files */
     for (size_t i = 0; i < order->argument_count; i++)
         arguments[count++] = order->arguments[i];
@@ -201,27 +279,27 @@ static void start(struct reducer *reducer, const struct body_set *set,
     if (order->material[0]) {
         arguments[count++] = catalogue;
         arguments[count++] = reducer->files[MATERIAL];
-        if (!error && !write_text(reducer->files[MATERIAL], order->material))
+        if (!error && !reducer_write_text(reducer->files[MATERIAL], order->material))
             error = errno;
     }
     arguments[count++] = files;
     arguments[count++] = order->mesh;
     if (!error)
-        error = spawn(reducer, arguments);
+        error = reducer_spawn(reducer, arguments);
     if (!error) {
         log_line(LEVEL_INFO, "%s: %s is being reduced by process %d, its messages in %s", order->id,
                  order->mesh, (int)reducer->child, reducer->files[MESSAGES]);
-        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
+        reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
         return;
     }
-    halt(reducer, "percuss-reduce or %.300s: %s", reducer->folder, strerror(error));
+    reducer_halt(reducer, "percuss-reduce or %.300s: %s", reducer->folder, strerror(error));
     log_line(LEVEL_ERROR, "%s: %s cannot be reduced: %s; SIGHUP tries again", order->id,
              order->mesh, reducer->halted);
-    drop_files(reducer);
+    reducer_drop_files(reducer);
 }
 
 /* How far the child is: its last line of progress, "percuss-reduce:  43.2 %  modes, 12 s left". */
-static void follow(struct reducer *reducer, const struct body_set *set)
+static void reducer_follow(struct reducer *reducer, const struct body_set *set)
 {
     char text[2048], *line, *rest = text, stage[120] = "";
     double percent;
@@ -241,14 +319,15 @@ static void follow(struct reducer *reducer, const struct body_set *set)
         }
     }
     if (stage[0])
-        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced, %.0f %% (%s): ask again later",
-             100.0 * reducer->done, stage);
+        reducer_tell(reducer, set, PERCUSS_BUSY,
+                     "its mesh is being reduced, %.0f %% (%s): ask again later",
+                     100.0 * reducer->done, stage);
     else
-        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
+        reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
 }
 
 /* The last line of the child's messages. */
-static void last_message(const char *path, char text[400])
+static void reducer_last_message(const char *path, char text[400])
 {
     char line[400];
     FILE *file = fopen(path, "re");
@@ -264,7 +343,7 @@ static void last_message(const char *path, char text[400])
 }
 
 /* Puts what the child has made, or why it has made nothing, where the catalogue finds it. */
-static void conclude(struct reducer *reducer, const struct body_set *set, int status)
+static void reducer_conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
     char reason[400];
     bool made = WIFEXITED(status) && WEXITSTATUS(status) == 0, noted;
@@ -275,25 +354,26 @@ static void conclude(struct reducer *reducer, const struct body_set *set, int st
     if (made) {
         /* a body that has its name is whole, whatever becomes of the machine */
         noted = path && !atomic_file_rename(reducer->files[BODY], path, NULL);
-        tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
+        reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
         if (WIFSIGNALED(status))
             snprintf(reason, sizeof reason, "percuss-reduce was ended by signal %d",
                      WTERMSIG(status));
         else
-            last_message(reducer->files[MESSAGES], reason);
+            reducer_last_message(reducer->files[MESSAGES], reason);
         log_line(LEVEL_ERROR, "%s: could not be reduced: %s", reducer->id, reason);
-        noted = path && write_text(path, reason);
-        tell(reducer, set, PERCUSS_UNKNOWN_BODY, "its mesh could not be reduced: %s", reason);
+        noted = path && reducer_write_text(path, reason);
+        reducer_tell(reducer, set, PERCUSS_UNKNOWN_BODY, "its mesh could not be reduced: %s",
+                     reason);
     }
     if (made && noted)
         log_line(LEVEL_INFO, "%s: reduced", reducer->id);
     if (!noted) {
-        halt(reducer, "%.300s: cannot be written", reducer->folder);
+        reducer_halt(reducer, "%.300s: cannot be written", reducer->folder);
         log_line(LEVEL_ERROR, "%s: nothing more is reduced until SIGHUP", reducer->halted);
     }
     free(path);
-    drop_files(reducer);
+    reducer_drop_files(reducer);
 }
 
 void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
@@ -313,7 +393,7 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
 }
 
 /* Whether the folder lacks an order's body and knows no reason why. */
-static bool is_open(const struct reducer *reducer, const struct body_order *order)
+static bool reducer_order_is_open(const struct reducer *reducer, const struct body_order *order)
 {
     static const char *const suffixes[] = {".h5", REFUSED, KILLED};
     bool open = !order->missing;
@@ -332,20 +412,20 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
     if (reducer->child) {
         pid_t ended = waitpid(reducer->child, &status, WNOHANG);
         if (ended != reducer->child) {
-            follow(reducer, set);
+            reducer_follow(reducer, set);
             return false;
         }
         reducer->child = 0;
-        conclude(reducer, set, status);
+        reducer_conclude(reducer, set, status);
         return true;
     }
     /* or the next */
     for (size_t i = 0; i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
-        if (!is_open(reducer, order))
+        if (!reducer_order_is_open(reducer, order))
             continue;
         if (!reducer->halted[0])
-            start(reducer, set, order);
+            reducer_start(reducer, set, order);
         if (reducer->child)
             break;
         body_order_tell(order, PERCUSS_UNKNOWN_BODY,
@@ -357,12 +437,17 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
 
 void reducer_end(struct reducer *reducer)
 {
-    halt(reducer, "the server is shutting down");
+    reducer_halt(reducer, "the server is shutting down");
     if (!reducer->child)
         return;
     /* it keeps nothing that it would have to put away; Gmsh, which it may run, goes with it */
     kill(-reducer->child, SIGKILL);
     waitpid(reducer->child, NULL, 0);
     reducer->child = 0;
-    drop_files(reducer);
+    reducer_drop_files(reducer);
+}
+
+enum percuss_status reducer_check_folder(const char *folder, struct fault *fault)
+{
+    return limits_check_place(folder, W_OK | X_OK, fault);
 }

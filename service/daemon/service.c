@@ -9,26 +9,17 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "daemon/backup_job.h"
-#include "daemon/body_cache.h"
-#include "daemon/dds_log.h"
 #include "daemon/dispatch.h"
 #include "daemon/identity.h"
 #include "daemon/log.h"
-#include "daemon/means.h"
-#include "daemon/memory.h"
-#include "daemon/metrics_file.h"
-#include "daemon/neighbours.h"
 #include "daemon/pool.h"
-#include "daemon/pulse.h"
 #include "daemon/reducer.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
+#include "daemon/store_job.h"
 #include "exchange/clock.h"
 #include "respond/responder.h"
 #include "wire_clock.h"
-
-static const int PATIENT_NICE = 10;
 
 /* Ensembles that run side by side, each of another client and with threads of its own. */
 enum { ENSEMBLES_AT_ONCE = 3 };
@@ -45,7 +36,7 @@ struct service {
     struct dispatch *dispatch; /* the reading thread's while it runs */
     pthread_t reader;
     bool reader_runs;
-    struct pulse reader_pulse;
+    struct heartbeat reader_heartbeat;
     bool is_stuck; /* which the log has said */
     struct pool *pool;
     struct neighbours neighbours;
@@ -83,7 +74,7 @@ static bool open_endpoint(struct service *service, const uint8_t *server, struct
     struct shared *shared = &service->shared;
     const struct settings *settings = shared->settings;
     const char *security = settings->security[0] ? settings->security : NULL;
-    dds_log_begin();
+    log_take_dds();
     tell_who_may_ask(security);
     shared->endpoint = endpoint_create(settings->domain, settings->partition, security,
                                        settings->limit_clients, server, fault);
@@ -108,13 +99,13 @@ static bool add_workers(struct service *service, enum lane lane, unsigned count,
     bool patient = lane == LANE_LONG || lane == LANE_TABLES || lane == LANE_ENSEMBLES;
     struct queue *slower = lane == LANE_SHORT ? shared->lanes[LANE_LONG] : NULL;
     for (unsigned i = 0; i < count; i++) {
-        struct responder *responder = means_responder(shared, lane);
+        struct responder *responder = shared_responder(shared, lane);
         if (!responder) {
             fault_set(fault, PERCUSS_INTERNAL, "out of memory");
             return false;
         }
         if (!pool_add(service->pool, shared->lanes[lane], slower, responder,
-                      patient ? PATIENT_NICE : 0)) {
+                      patient ? POOL_PATIENT_NICE : 0)) {
             fault_set(fault, PERCUSS_INTERNAL, "threads: cannot be started");
             return false;
         }
@@ -145,8 +136,8 @@ static void *read_requests(void *argument)
     struct endpoint_handler handler = dispatch_handler(service->dispatch);
     memory_keep(READER_MEMORY);
     pthread_setname_np(pthread_self(), "reader");
-    pulse_adopt(&service->reader_pulse);
-    pulse_beat();
+    heartbeat_adopt(&service->reader_heartbeat);
+    heartbeat_beat();
     endpoint_run(service->shared.endpoint, &handler);
     return NULL;
 }
@@ -183,8 +174,8 @@ static void tidy_bodies(struct service *service)
     const struct settings *settings = service->shared.settings;
     service->tidied = clock_now();
     if (settings->bodies[0])
-        body_cache_tidy(settings->bodies, service->shared.snapshots.current->set,
-                        settings->bodies_days);
+        reducer_tidy(settings->bodies, service->shared.snapshots.current->set,
+                     settings->bodies_days);
 }
 
 struct service *service_create(const struct settings *settings, const uint8_t *server,
@@ -290,7 +281,7 @@ static void write_metrics(struct service *service)
 {
     struct fault fault;
     const char *path = service->shared.settings->metrics;
-    bool good = !path[0] || metrics_file_write(&service->shared, path, &fault);
+    bool good = !path[0] || status_write_metrics(&service->shared, path, &fault);
     if (!good && !service->metrics_fail)
         log_line(LEVEL_ERROR, "%s", fault.text);
     service->metrics_fail = !good;
@@ -343,15 +334,13 @@ void service_tick(struct service *service)
     identity_look(&service->identity, now, time(NULL));
     status_announce(shared);
     write_metrics(service);
-    const struct neighbours_self self = {shared->settings->domain, shared->catalogue,
-                                         shared->snapshots.current->set->revision};
-    neighbours_look(&service->neighbours, shared->endpoint, &self);
+    neighbours_look(&service->neighbours, shared);
     atomic_store(&shared->others, service->neighbours.others);
 }
 
 bool service_is_alive(struct service *service, double patience)
 {
-    double reader = pulse_silence(&service->reader_pulse, clock_now());
+    double reader = heartbeat_silence(&service->reader_heartbeat, clock_now());
     double workers = pool_silence(service->pool);
     bool stuck = fmax(reader, workers) > patience;
     if (stuck && !service->is_stuck)

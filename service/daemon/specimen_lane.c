@@ -3,19 +3,93 @@
 
 #include "daemon/specimen_lane.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "daemon/log.h"
-#include "daemon/store_care.h"
 #include "endpoint/reply_bytes.h"
 #include "exchange/clock.h"
 #include "exchange/encode.h"
 #include "exchange/question.h"
+#include "store/backup.h"
+#include "store/database.h"
 #include "store/database_check.h"
 #include "store/specimens.h"
+
+/* Problems that are logged one by one. */
+enum { MOST_COMPLAINTS = 20 };
+
+static void store_complain(void *context, const char *problem)
+{
+    int *count = context;
+    if ((*count)++ < MOST_COMPLAINTS)
+        log_line(LEVEL_ERROR, "store: %s", problem);
+}
+
+/* Looks through the store and logs what is found. */
+static enum percuss_status store_look(struct specimen_store *store, struct audit *audit,
+                                      struct fault *fault)
+{
+    int complaints = 0;
+    audit->complain = store_complain;
+    audit->context = &complaints;
+    enum percuss_status status = specimen_store_audit(store, audit, fault);
+    if (!status)
+        log_line(audit->damaged ? LEVEL_ERROR : LEVEL_INFO,
+                 "store: %zu specimens, %zu replies, %zu marks of clients: %zu damaged",
+                 audit->specimens, audit->replies, audit->marks, audit->damaged);
+    return status;
+}
+
+static enum percuss_status store_check(struct specimen_store *store, bool structure,
+                                       struct fault *fault)
+{
+    struct audit audit = {.structure = structure};
+    enum percuss_status status = store_look(store, &audit, fault);
+    if (status || !audit.unusable)
+        return status;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "the store of specimens is damaged: nobody knows what was answered: restore "
+                     "it from a copy or move it away");
+}
+
+static void store_back_up(struct specimen_store *store, const char *path)
+{
+    struct fault fault;
+    if (store_check(store, true, &fault))
+        log_line(LEVEL_ERROR, "store: %s", fault.text);
+    if (!*path)
+        return;
+    if (backup_write(store, path, &fault))
+        log_line(LEVEL_ERROR, "store: not copied: %s", fault.text);
+    else
+        log_line(LEVEL_INFO, "store: copied to %s", path);
+}
+
+bool specimen_lane_check_file(const char *path)
+{
+    struct specimen_store *store = NULL;
+    struct fault fault;
+    enum percuss_status status = PERCUSS_OK;
+    /* opening would make one */
+    if (access(path, R_OK | W_OK) != 0)
+        status = fault_set(&fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be used: %s", path,
+                           strerror(errno));
+    if (!status)
+        status = specimen_store_open(path, UINT_MAX, &store, &fault);
+    struct audit audit = {.structure = false};
+    if (!status)
+        status = store_look(store, &audit, &fault);
+    specimen_store_close(store);
+    if (status)
+        log_line(LEVEL_ERROR, "%s", fault.text);
+    return !status && !audit.damaged;
+}
 
 /* Not the id of any body. */
 static const char DAMAGED_BODY[] = "(damaged)";
@@ -30,7 +104,7 @@ struct specimen_lane {
     struct body_state *states[PERCUSS_MAX_BODIES]; /* of the request at hand */
 };
 
-static enum percuss_status open_store(struct specimen_lane *lane, struct fault *fault)
+static enum percuss_status lane_open_store(struct specimen_lane *lane, struct fault *fault)
 {
     enum percuss_status status =
         specimen_store_open(lane->path, lane->replies, &lane->store, fault);
@@ -38,7 +112,7 @@ static enum percuss_status open_store(struct specimen_lane *lane, struct fault *
     if (status == PERCUSS_BUSY)
         database_room_check(lane->path, fault);
     if (!status)
-        status = store_care_check(lane->store, false, fault);
+        status = store_check(lane->store, false, fault);
     if (status) {
         specimen_store_close(lane->store);
         lane->store = NULL;
@@ -60,7 +134,7 @@ enum percuss_status specimen_lane_open(const char *path, unsigned replies,
     created->replies = replies;
     created->commits = commits;
     atomic_init(&created->count, 0);
-    enum percuss_status status = open_store(created, fault);
+    enum percuss_status status = lane_open_store(created, fault);
     if (status && status != PERCUSS_BUSY) {
         specimen_lane_close(created);
         return status;
@@ -82,7 +156,7 @@ void specimen_lane_close(struct specimen_lane *lane)
     free(lane);
 }
 
-static void announce(void *context, const struct specimen *specimen)
+static void lane_announce(void *context, const struct specimen *specimen)
 {
     struct specimen_lane *lane = context;
     /* a damaged one is seen, so that it can be cleared */
@@ -92,10 +166,10 @@ static void announce(void *context, const struct specimen *specimen)
 }
 
 /* All specimens, or one. */
-static void announce_again(struct specimen_lane *lane, const char *specimen)
+static void lane_announce_again(struct specimen_lane *lane, const char *specimen)
 {
     struct fault fault;
-    if (specimen_store_visit(lane->store, specimen, announce, lane, &fault))
+    if (specimen_store_visit(lane->store, specimen, lane_announce, lane, &fault))
         log_line(LEVEL_ERROR, "%s", fault.text);
 }
 
@@ -103,7 +177,7 @@ void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoin
 {
     lane->endpoint = endpoint;
     if (lane->store)
-        announce_again(lane, NULL);
+        lane_announce_again(lane, NULL);
 }
 
 size_t specimen_lane_count(struct specimen_lane *lane)
@@ -121,21 +195,21 @@ bool specimen_lane_concerns(const percuss_v1_Request *request)
 }
 
 /* Whether there is a store now. */
-static enum percuss_status need_store(struct specimen_lane *lane, struct fault *fault)
+static enum percuss_status lane_need_store(struct specimen_lane *lane, struct fault *fault)
 {
     if (lane->store)
         return PERCUSS_OK;
-    enum percuss_status status = open_store(lane, fault);
+    enum percuss_status status = lane_open_store(lane, fault);
     if (status)
         return status;
     log_line(LEVEL_INFO, "store: %s: there is room", lane->path);
-    announce_again(lane, NULL);
+    lane_announce_again(lane, NULL);
     return PERCUSS_OK;
 }
 
 /* By the specimen whose impact cannot be stored; PERCUSS_BUSY: for lack of room. */
-static struct answer *refuse_specimen(const struct question *question, enum percuss_status status,
-                                      const char *problem)
+static struct answer *lane_refuse_specimen(const struct question *question,
+                                           enum percuss_status status, const char *problem)
 {
     char text[640];
     const percuss_v1_Request *request = question->request;
@@ -151,7 +225,7 @@ static struct answer *refuse_specimen(const struct question *question, enum perc
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL, text);
 }
 
-static void release(struct specimen_lane *lane)
+static void lane_release_states(struct specimen_lane *lane)
 {
     for (size_t i = 0; i < PERCUSS_MAX_BODIES; i++) {
         free(lane->states[i]);
@@ -160,8 +234,8 @@ static void release(struct specimen_lane *lane)
 }
 
 /* Fills lane->states. */
-static enum percuss_status load(struct specimen_lane *lane, const struct question *question,
-                                struct fault *fault)
+static enum percuss_status lane_load_states(struct specimen_lane *lane,
+                                            const struct question *question, struct fault *fault)
 {
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
         const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
@@ -181,8 +255,8 @@ static enum percuss_status load(struct specimen_lane *lane, const struct questio
 }
 
 /* What the impact did to the specimens; their number. A request that ignores dents leaves none. */
-static size_t find_changes(const struct question *question, const struct responder *responder,
-                           struct specimen_change *changes)
+static size_t lane_find_changes(const struct question *question, const struct responder *responder,
+                                struct specimen_change *changes)
 {
     size_t count = 0;
     if (question->request->options.dents != PERCUSS_DENTS_KEEP)
@@ -198,13 +272,13 @@ static size_t find_changes(const struct question *question, const struct respond
 }
 
 /* Makes an answer durable with what the impact did. NULL, or what to refuse the request with. */
-static const char *store(struct specimen_lane *lane, const struct question *question,
-                         const struct responder *responder, const struct answer *answer,
-                         struct stored_reply *reply)
+static const char *lane_commit(struct specimen_lane *lane, const struct question *question,
+                               const struct responder *responder, const struct answer *answer,
+                               struct stored_reply *reply)
 {
     struct specimen_change changes[PERCUSS_MAX_BODIES];
     struct fault fault;
-    size_t count = find_changes(question, responder, changes);
+    size_t count = lane_find_changes(question, responder, changes);
     /* the reply as it is sent when the same is asked again */
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
@@ -221,17 +295,17 @@ static const char *store(struct specimen_lane *lane, const struct question *ques
     /* others are told what is new */
     atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
-        announce_again(lane, changes[i].name);
+        lane_announce_again(lane, changes[i].name);
     return NULL;
 }
 
-static struct answer *compute(struct specimen_lane *lane, struct responder *responder,
-                              const struct question *question, struct stored_reply *reply)
+static struct answer *lane_compute(struct specimen_lane *lane, struct responder *responder,
+                                   const struct question *question, struct stored_reply *reply)
 {
     struct fault fault;
     if (database_room_check(lane->path, &fault))
-        return refuse_specimen(question, PERCUSS_BUSY, fault.text);
-    enum percuss_status status = load(lane, question, &fault);
+        return lane_refuse_specimen(question, PERCUSS_BUSY, fault.text);
+    enum percuss_status status = lane_load_states(lane, question, &fault);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct question posed = *question;
@@ -239,18 +313,18 @@ static struct answer *compute(struct specimen_lane *lane, struct responder *resp
     struct answer *answer = responder_answer(responder, &posed);
     if (!answer || !encode_status_has_result(answer->reply->status))
         return answer;
-    const char *problem = store(lane, question, responder, answer, reply);
+    const char *problem = lane_commit(lane, question, responder, answer, reply);
     if (!problem)
         return answer;
     answer_release(answer);
     if (database_room_check(lane->path, &fault))
-        return refuse_specimen(question, PERCUSS_BUSY, fault.text);
+        return lane_refuse_specimen(question, PERCUSS_BUSY, fault.text);
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL, problem);
 }
 
 /* Kept nowhere, so that the request whose number it is still finds its own reply. */
-static struct answer *refuse_number(const struct question *question, enum percuss_status status,
-                                    const char *reason)
+static struct answer *lane_refuse_number(const struct question *question,
+                                         enum percuss_status status, const char *reason)
 {
     char message[512];
     snprintf(message, sizeof message, "sequence: %llu: %s",
@@ -262,10 +336,10 @@ static struct answer *refuse_number(const struct question *question, enum percus
 }
 
 /* A reply that was kept and cannot be given: what the request did to its specimens stays. */
-static struct answer *refuse_damaged(const struct question *question, const char *problem)
+static struct answer *lane_refuse_damaged(const struct question *question, const char *problem)
 {
     log_line(LEVEL_ERROR, "%s", problem);
-    return refuse_number(
+    return lane_refuse_number(
         question, PERCUSS_INTERNAL,
         "was answered before, but the stored reply cannot be read any more (the "
         "server's log says why); its impact stays counted: another one needs a new "
@@ -273,7 +347,7 @@ static struct answer *refuse_damaged(const struct question *question, const char
 }
 
 /* Whether there is a reply nobody knows now. */
-static struct answer *refuse_for_now(const struct question *question, const char *problem)
+static struct answer *lane_refuse_for_now(const struct question *question, const char *problem)
 {
     log_line(LEVEL_ERROR, "%s", problem);
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL,
@@ -282,12 +356,12 @@ static struct answer *refuse_for_now(const struct question *question, const char
 }
 
 /* The stored reply, if it is one to this request. */
-static struct answer *recall(const struct question *question, const struct stored_reply *reply,
-                             struct digest content)
+static struct answer *lane_recall(const struct question *question, const struct stored_reply *reply,
+                                  struct digest content)
 {
     if (reply->content[0] != content.first || reply->content[1] != content.second)
-        return refuse_number(question, PERCUSS_BAD_REQUEST,
-                             "was used for another request: must be a new number");
+        return lane_refuse_number(question, PERCUSS_BAD_REQUEST,
+                                  "was used for another request: must be a new number");
     bool damaged;
     struct answer *answer = reply_bytes_read(reply->bytes, reply->size, &damaged);
     if (answer || !damaged)
@@ -295,7 +369,7 @@ static struct answer *recall(const struct question *question, const struct store
     char problem[96];
     snprintf(problem, sizeof problem, "the stored reply to request %llu is damaged",
              (unsigned long long)reply->sequence);
-    return refuse_damaged(question, problem);
+    return lane_refuse_damaged(question, problem);
 }
 
 struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder *responder,
@@ -308,28 +382,28 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
     memcpy(reply.client, question->envelope.client, sizeof reply.client);
     struct stored_reply kept = reply;
     struct fault fault;
-    enum percuss_status status = need_store(lane, &fault);
+    enum percuss_status status = lane_need_store(lane, &fault);
     if (status)
-        return refuse_specimen(question, status, fault.text);
+        return lane_refuse_specimen(question, status, fault.text);
     /* what was answered before */
     status = specimen_store_find(lane->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
-        return kept.damaged ? refuse_damaged(question, fault.text)
-                            : refuse_for_now(question, fault.text);
+        return kept.damaged ? lane_refuse_damaged(question, fault.text)
+                            : lane_refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     /* the same again, or what the impact does */
-    struct answer *answer =
-        kept.bytes ? recall(question, &kept, content) : compute(lane, responder, question, &reply);
+    struct answer *answer = kept.bytes ? lane_recall(question, &kept, content)
+                                       : lane_compute(lane, responder, question, &reply);
     free(kept.bytes);
-    release(lane);
+    lane_release_states(lane);
     return answer;
 }
 
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
 {
     struct fault fault;
-    if (need_store(lane, &fault) || specimen_store_clear(lane->store, specimen, &fault)) {
+    if (lane_need_store(lane, &fault) || specimen_store_clear(lane->store, specimen, &fault)) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return;
     }
@@ -341,8 +415,8 @@ void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
 void specimen_lane_back_up(struct specimen_lane *lane, const char *path)
 {
     struct fault fault;
-    if (need_store(lane, &fault))
+    if (lane_need_store(lane, &fault))
         log_line(LEVEL_ERROR, "store: not looked through: %s", fault.text);
     else
-        store_care_back_up(lane->store, path);
+        store_back_up(lane->store, path);
 }

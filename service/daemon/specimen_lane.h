@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Requests of specimens: their dents come from the store, and what an impact leaves is durable
- * together with its reply before anybody sees it. One thread at a time; it takes the requests in
+/* Requests that name specimens: their dents come from the store, and the new dents are durable
+ * together with the reply before any client sees it. One thread at a time; it takes the requests in
  * order of arrival. */
 #ifndef PERCUSS_DAEMON_SPECIMEN_LANE_H
 #define PERCUSS_DAEMON_SPECIMEN_LANE_H
@@ -13,7 +13,7 @@
 
 struct specimen_lane;
 
-/* Opens the store and logs what is damaged in it. Its status is specimen_store_open's;
+/* Opens the store and logs the damage in it. Its status is specimen_store_open's;
  * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. Where the disk has no
  * room to create it or to bring it up to date, the lane is there without it: it refuses requests
  * and opens the store when there is room. `path` is borrowed; `commits` notes how long writing
@@ -34,9 +34,12 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
 /* Forgets a specimen. */
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen);
 
-/* Looks through the store, with what is found in the log, and copies it to that file (empty text:
- * none). */
+/* Checks the whole store, logs the result, and copies it to that file (empty text: none). */
 void specimen_lane_back_up(struct specimen_lane *lane, const char *path);
+
+/* Checks a store that no daemon has open, or a copy, and logs the result. False: it is damaged or
+ * there is none. */
+bool specimen_lane_check_file(const char *path);
 
 /* Number of specimens. Any thread. */
 size_t specimen_lane_count(struct specimen_lane *lane);

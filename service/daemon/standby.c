@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "catalogue/catalogue.h"
+#include "daemon/limits.h"
 #include "daemon/log.h"
 #include "exchange/clock.h"
 
@@ -99,6 +100,11 @@ enum percuss_status standby_take(const char *path, uint8_t server[16], struct fa
     else
         held = file;
     return status;
+}
+
+enum percuss_status standby_check(const char *path, struct fault *fault)
+{
+    return limits_check_place(path, R_OK | W_OK, fault);
 }
 
 bool standby_is_held(const char *path)

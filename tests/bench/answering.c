@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "convert.h"
-#include "daemon/means.h"
+#include "daemon/shared.h"
 #include "endpoint/reply_bytes.h"
 #include "exchange/clock.h"
 #include "exchange/decode.h"
@@ -40,7 +40,7 @@ struct answering *answering_create(const char *settings)
     bool good = settings_load(settings, &answering->settings, &fault) == PERCUSS_OK &&
                 shared_create(&answering->shared, &answering->settings, &fault);
     if (good)
-        answering->responder = means_responder(&answering->shared, false);
+        answering->responder = shared_responder(&answering->shared, false);
     if (answering->responder)
         return answering;
     fprintf(stderr, "%s\n", good ? "out of memory" : fault.text);

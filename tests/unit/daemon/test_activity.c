@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/activity.c: what is read is what was set last, cut to fit. */
+/* Tests daemon/shared.c: what is read is what was set last, cut to fit. */
 #include "check.h"
-#include "daemon/activity.h"
+#include "daemon/shared.h"
 #include "exchange/clock.h"
 
 static void says_what_runs(void **state)

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* daemon/body_cache: which files of the folder stay, and which go. */
-#include "daemon/body_cache.h"
+/* daemon/reducer: which files of the folder stay, and which go. */
+#include "daemon/reducer.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -59,7 +59,7 @@ static struct body_order order(char letter, bool made)
 static void tidy(void)
 {
     struct body_order orders[] = {order('a', true), order('b', false)};
-    body_cache_tidy(folder, &(struct body_set){.orders = orders, .order_count = 2}, 30.0);
+    reducer_tidy(folder, &(struct body_set){.orders = orders, .order_count = 2}, 30.0);
 }
 
 static void what_is_used_stays_and_looks_it(void **state)
@@ -145,7 +145,7 @@ static void what_a_process_left_behind_goes(void **state)
 static void a_folder_that_is_not_there(void **state)
 {
     (void)state;
-    body_cache_tidy("/none/such", &(struct body_set){.order_count = 0}, 30.0);
+    reducer_tidy("/none/such", &(struct body_set){.order_count = 0}, 30.0);
 }
 
 int main(void)

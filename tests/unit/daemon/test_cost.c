@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/cost.c: what the reading thread may solve, and what is for the long lane. */
+/* Tests daemon/client_job.c: what the reading thread may solve, and what is for the long lane. */
 #include "check.h"
-#include "daemon/cost.h"
+#include "daemon/client_job.h"
 #include "percuss/vocabulary.h"
 
 static percuss_v1_Request request_of(double tolerance, unsigned model, unsigned method)
@@ -36,8 +36,8 @@ static void costs_by_options(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         percuss_v1_Request request =
             request_of(cases[i].tolerance, cases[i].model, cases[i].method);
-        assert_int_equal(cost_is_cheap(&request), cases[i].cheap);
-        assert_int_equal(cost_is_long(&request.options), cases[i].is_long);
+        assert_int_equal(impact_job_is_cheap(&request), cases[i].cheap);
+        assert_int_equal(impact_job_is_long(&request.options), cases[i].is_long);
     }
 }
 
@@ -49,10 +49,10 @@ static void what_asks_for_more_is_not_cheap(void **state)
     pair.contacts._length = 2;
     conditioned.options.conditioning = true;
     traced.options.trace = true;
-    assert_false(cost_is_cheap(&pair));
-    assert_false(cost_is_cheap(&conditioned));
-    assert_false(cost_is_cheap(&traced));
-    assert_false(cost_is_long(&traced.options));
+    assert_false(impact_job_is_cheap(&pair));
+    assert_false(impact_job_is_cheap(&conditioned));
+    assert_false(impact_job_is_cheap(&traced));
+    assert_false(impact_job_is_long(&traced.options));
 }
 
 int main(void)

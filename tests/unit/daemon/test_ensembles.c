@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/ensembles.c: who is cancelled, and who waits. */
+/* Tests daemon/shared.c: who is cancelled, and who waits. */
 #include <string.h>
 
 #include "check.h"
-#include "daemon/ensembles.h"
+#include "daemon/shared.h"
 
 static const uint8_t one[16] = {1}, other[16] = {2};
 

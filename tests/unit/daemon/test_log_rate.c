@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/log_rate.c by a clock of its own: how many lines of a kind pass, and what is said of
- * the others. */
-#include "daemon/log_rate.h"
+/* Tests the limit of daemon/log.c by a clock of its own: how many lines of a kind pass, and how the
+ * others are summed up. */
+#include "daemon/log.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,14 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/daemon/memory.c: what a thread keeps is mapped when it is asked for. */
+/* Tests memory_keep of daemon/pool.c: the memory that a thread keeps is mapped before it is used.
+ */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
 #include "check.h"
-#include "daemon/memory.h"
+#include "daemon/pool.h"
 
 enum { BLOCKS = 512, BLOCK = 3000 };
 

@@ -1,13 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/tasks.c: what runs stands before what waits, the oldest first, and no more than
+/* Tests daemon/status.c: what runs stands before what waits, the oldest first, and no more than
  * there is room for; what nobody waits for any more is left out. */
 #include <string.h>
 
 #include "check.h"
 #include "daemon/queue.h"
-#include "daemon/tasks.h"
+#include "daemon/status.h"
 
 /* A client who does not wait for what he asked. */
 enum { FORGOTTEN = 99 };

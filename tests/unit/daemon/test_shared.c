@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/means.c: until when a contact table is computed, and what the status says of it. */
-#include "daemon/means.h"
+/* Tests daemon/shared.c: until when a contact table is computed, and what the status says of it. */
+#include "daemon/shared.h"
 
 #include <string.h>
 
@@ -37,11 +37,11 @@ static void tells_how_far_it_is(void **state)
     char text[128];
     double progress;
     open_world(&shared, &maker);
-    assert_int_equal(means_table_goes_on(&shared, &maker, 0.25, &fault), PERCUSS_OK);
+    assert_int_equal(shared_table_goes_on(&shared, &maker, 0.25, &fault), PERCUSS_OK);
     activity_read(&shared.activity, text, sizeof text, &progress);
     assert_string_equal(text, "computing a contact table");
     assert_true(progress == 0.25);
-    means_table_ended(&shared, &maker);
+    shared_table_ended(&shared, &maker);
     activity_read(&shared.activity, text, sizeof text, &progress);
     assert_string_equal(text, "");
     close_world(&shared);
@@ -56,9 +56,9 @@ static void ends_when_its_client_goes(void **state)
     struct fault fault;
     open_world(&shared, &maker);
     reply_store_set_present(shared.replies, client, true, 0.0);
-    assert_int_equal(means_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_OK);
+    assert_int_equal(shared_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_OK);
     reply_store_set_present(shared.replies, client, false, 0.0);
-    assert_int_equal(means_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_TIMEOUT);
+    assert_int_equal(shared_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_TIMEOUT);
     assert_string_equal(fault.text, "the client had gone: ask again");
     close_world(&shared);
 }
@@ -71,7 +71,7 @@ static void ends_when_the_server_does(void **state)
     struct fault fault;
     open_world(&shared, &maker);
     atomic_store(&shared.draining, true);
-    assert_int_equal(means_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_BUSY);
+    assert_int_equal(shared_table_goes_on(&shared, &maker, 0.5, &fault), PERCUSS_BUSY);
     assert_string_equal(fault.text, SHARED_SHUTTING_DOWN);
     close_world(&shared);
 }
