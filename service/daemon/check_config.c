@@ -27,7 +27,7 @@ static void say(const struct fault *fault)
     fprintf(stderr, "percussd: %s\n", fault->text);
 }
 
-/* What is good but worth a look: sites of meshes that were not declared on the surface. */
+/* Remarks on sites of meshes that were not declared on the surface. */
 static void remark_sites(const struct body_set *set)
 {
     for (size_t b = 0; b < set->count; b++)
@@ -43,7 +43,7 @@ static void remark_sites(const struct body_set *set)
         }
 }
 
-/* A material in use once, under the first body that is of it. */
+/* A material is remarked once, under the first body that is of it. */
 static bool is_first_of_its_material(const struct body_set *set, size_t number)
 {
     size_t b = 0;
@@ -52,7 +52,7 @@ static bool is_first_of_its_material(const struct body_set *set, size_t number)
     return b == number;
 }
 
-/* What is possible but improbable. */
+/* Warns of numbers that are possible but improbable. */
 static void remark_numbers(const struct body_set *set)
 {
     struct plausible_remark remarks[PLAUSIBLE_MOST];
@@ -79,7 +79,7 @@ static void remark_numbers(const struct body_set *set)
     }
 }
 
-/* With the bodies that are not there, or not yet. */
+/* Names the bodies that are missing, or will be reduced. */
 static bool check_catalogue(const struct settings *settings)
 {
     struct fault fault;
@@ -104,7 +104,7 @@ static bool check_catalogue(const struct settings *settings)
     return whole;
 }
 
-/* Every table is read; one that is no sound table, which a daemon goes without, is remarked. */
+/* Reads every table; one that is damaged, which a daemon leaves out, is remarked. */
 static bool check_tables(const struct settings *settings)
 {
     struct fault fault;
@@ -175,7 +175,7 @@ static bool check_standby(const struct settings *settings)
     return false;
 }
 
-/* A file that is written later, without which a daemon starts. */
+/* Warns of a file that cannot be written later; a daemon starts without it. */
 static void remark_file(const char *key, const char *path)
 {
     struct fault fault;
@@ -183,7 +183,7 @@ static void remark_file(const char *key, const char *path)
         fprintf(stderr, "percussd: warning: %s: %s\n", key, fault.text);
 }
 
-/* By joining it for a moment, with the identity, which is whole. */
+/* Joins the domain for a moment, with the identity, which was checked before. */
 static bool check_domain(const struct settings *settings)
 {
     dds_entity_t participant = wire_participant_create_secured(
@@ -196,7 +196,7 @@ static bool check_domain(const struct settings *settings)
     return participant > 0;
 }
 
-/* DDS is not tried where it would end the process. */
+/* Before DDS, which would end the process where a limit is too low. */
 static bool check_limits(const struct settings *settings)
 {
     struct fault fault;

@@ -19,7 +19,7 @@
 #include "exchange/question.h"
 #include "respond/responder.h"
 
-/* Finer solutions than these take tens of milliseconds; or seconds. */
+/* Finer tolerances take tens of milliseconds, or seconds. */
 static const double CHEAP_TOLERANCE = 1e-4, SHORT_TOLERANCE = 1e-9;
 
 static bool cost_takes(const percuss_v1_Options *options, enum contact_effort effort)
@@ -78,7 +78,7 @@ bool client_job_is_gone(struct client_job *job)
     return gone;
 }
 
-/* False: it has come to another end before. */
+/* False: it had another end before. */
 static bool client_job_settle(struct client_job *job, enum client_job_fate fate)
 {
     int open = FATE_OPEN;
@@ -111,7 +111,7 @@ void client_job_deliver(struct client_job *job, struct answer *answer)
         deliver(job->shared, &job->name, answer);
 }
 
-/* Of several items those that are settled count; of one, what its solve has said. */
+/* The share of items that are settled; of a single item, the share that its solve reports. */
 static double client_job_share_done(const struct client_job *job)
 {
     size_t items = job->job.items;
@@ -142,18 +142,19 @@ struct impact_job {
     struct answer *answers[];     /* of the requests; NULL: not yet, or no memory for it */
 };
 
-/* What takes longer than this, s, makes way where other clients wait. Most impacts take less than
- * a tenth of it; what is done twice, for a little longer, costs at most as much again. */
+/* A solve that takes longer than this, s, is given up where other clients wait. Most impacts take
+ * less than a tenth of it; one that is begun twice, for a little more, costs at most as much again.
+ */
 static const double MAKING_WAY = 0.01;
 
-/* Whoever watches over an item. */
+/* One solve of an item, which asks whether it is still wanted. */
 struct attempt {
     struct impact_job *impact;
-    double begun;   /* monotonic, s; INFINITY: it may take its time */
+    double begun;   /* monotonic, s; INFINITY: it is never given up for others */
     bool makes_way; /* it was given up for others */
 };
 
-/* Whether it is somebody else's turn. */
+/* Whether the item is given up for other clients. */
 static bool attempt_makes_way(struct attempt *attempt)
 {
     struct job *job = &attempt->impact->base.job;
@@ -204,7 +205,7 @@ static bool impact_run(struct job *job, size_t item, struct responder *responder
     atomic_fetch_add(&impact->base.running, 1);
     struct answer *answer = responder_answer(responder, &question);
     atomic_fetch_sub(&impact->base.running, 1);
-    /* what was given up on the way says nothing */
+    /* a solve that was given up has no answer */
     if (attempt.makes_way)
         answer_release(answer);
     else
@@ -232,7 +233,7 @@ static bool specimen_run(struct job *job, size_t item, struct responder *respond
     atomic_fetch_add(&impact->base.running, 1);
     impact->answers[item] = specimen_lane_answer(shared->specimens, responder, &question);
     atomic_fetch_sub(&impact->base.running, 1);
-    /* who has seen the reply finds its specimen announced */
+    /* a client that has the reply finds its specimen announced */
     if (specimen_lane_count(shared->specimens) != before)
         status_announce(shared);
     return true;
@@ -254,7 +255,7 @@ static struct answer *batch_gather(struct impact_job *impact)
             return NULL;
     }
     struct answer *answer = batch_answer(&envelope, impact->answers, count);
-    /* it has taken the references over */
+    /* it owns the references now */
     if (answer)
         memset(impact->answers, 0, count * sizeof *impact->answers);
     return answer;
@@ -268,7 +269,7 @@ static void batch_report(struct job *job)
     answer_release(answer);
 }
 
-/* Only the server's end does. */
+/* Of the server's end alone; a client withdraws its request. */
 static void impact_cancel(struct job *job)
 {
     atomic_store(&((struct impact_job *)job)->cancelled, true);
@@ -284,7 +285,7 @@ static void impact_release(struct job *job)
     free(impact);
 }
 
-/* One that waits for tables is told from others by its lane. */
+/* A request that waits for tables is one in their lane. */
 static bool impact_describe(const struct job *job, struct task *task)
 {
     const struct client_job *base = (const struct client_job *)job;
@@ -309,7 +310,7 @@ bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request
     return shared->specimens && specimen_lane_concerns(request);
 }
 
-/* A batch is as long as its longest member. */
+/* Of a batch, the lane of its longest member. */
 static enum lane impact_lane(const struct client_job *job, const percuss_v1_Request *requests,
                              size_t count)
 {
@@ -337,7 +338,7 @@ struct client_job *impact_job_create(struct shared *shared, const struct request
     }
     struct client_job *base = &impact->base;
     client_job_begin(base, shared, name, arrival);
-    /* the specimens that a batch names are refused by any worker */
+    /* any worker refuses the specimens that a batch names */
     bool in_batch = name->exchange == EXCHANGE_BATCH;
     bool durable = !in_batch && impact_job_is_durable(shared, requests);
     base->lane = durable ? LANE_SPECIMENS : impact_lane(base, requests, count);

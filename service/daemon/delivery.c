@@ -119,7 +119,7 @@ void deliver(struct shared *shared, const struct request_name *name, struct answ
     count(shared, answer);
     metrics_count(&shared->metrics, answer);
     note_answer(name, answer);
-    /* stored first: who has seen the reply finds it when asking again */
+    /* stored first: a client that has the reply gets the same one when it asks again */
     if (answer->passing)
         reply_store_forget(shared->replies, name);
     else

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Replies on their way: stored, counted and written. Any thread. */
+/* Stores, counts and sends replies. Any thread. */
 #ifndef PERCUSS_DAEMON_DELIVERY_H
 #define PERCUSS_DAEMON_DELIVERY_H
 
@@ -11,15 +11,15 @@
 struct envelope delivery_envelope(const struct shared *shared, const struct request_name *name,
                                   const struct snapshot *snapshot);
 
-/* Sends the answer to an admitted request, stores it and counts it; the caller keeps his reference.
+/* Sends the answer to an admitted request, stores it and counts it; the caller keeps its reference.
  * NULL: there was no memory for one, and the request is refused for that. */
 void deliver(struct shared *shared, const struct request_name *name, struct answer *answer);
 
-/* What is said where too much waits, written into `message`, which is returned. */
+/* The message where too many jobs wait, written into `message`, which is returned. */
 enum { DELIVERY_MESSAGE = 128 };
 const char *delivery_too_many(const struct shared *shared, char message[DELIVERY_MESSAGE]);
 
-/* Refuses an admitted request for how things stand: asked again it is new. */
+/* Refuses an admitted request for a reason that passes: when it is asked again, it is new. */
 void deliver_refusal(struct shared *shared, const struct request_name *name,
                      enum percuss_status status, const char *message);
 

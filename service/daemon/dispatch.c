@@ -24,16 +24,16 @@ static const double COMPANY_SECONDS = 0.01;
 /* Between two lines about clients that get no replies, s. */
 static const double REFUSAL_SECONDS = 1.0;
 
-/* What takes longer than this, s, is not cheap whatever it looks like. */
+/* A solve that takes longer than this, s, is left to the workers. */
 static const double INLINE_SECONDS = 0.005;
 
 struct dispatch {
     struct shared *shared;
-    struct responder *responder; /* for what is cheap */
+    struct responder *responder; /* for cheap requests */
     uint8_t last_client[16];
-    double told;          /* monotonic, s: when a client without a place was last logged */
-    unsigned long untold; /* those since */
-    double company_until; /* monotonic, s: till then several clients count as asking */
+    double told; /* time of the last line about a client that gets no replies; monotonic, s */
+    unsigned long untold; /* such clients since then */
+    double company_until; /* monotonic, s: until then several clients count as asking */
 };
 
 struct dispatch *dispatch_create(struct shared *shared)
@@ -57,7 +57,7 @@ void dispatch_free(struct dispatch *dispatch)
     free(dispatch);
 }
 
-/* False: the request, which was admitted, is refused, as the server ends. */
+/* False: the server ends, and the admitted request was refused. */
 static bool is_open(struct shared *shared, const struct request_name *name)
 {
     bool draining = atomic_load(&shared->draining);
@@ -86,7 +86,8 @@ static void enqueue(struct shared *shared, const struct request_name *name, stru
     deliver_refusal(shared, name, PERCUSS_BUSY, delivery_too_many(shared, message));
 }
 
-/* Answers what has been asked before, and what misuses its number. True: the request is new. */
+/* Answers a repeated request, and one that reuses the number of another. True: the request is new.
+ */
 static bool admit(struct shared *shared, const struct request_name *name, struct digest content,
                   double now)
 {
@@ -117,7 +118,7 @@ static bool admit(struct shared *shared, const struct request_name *name, struct
     return true;
 }
 
-/* Whether no other client has asked lately: while the reading thread solves, nobody else is heard.
+/* Whether no other client has asked lately: while the reading thread solves, it reads no requests.
  */
 static bool is_sole(struct dispatch *dispatch, const uint8_t client[16], double now)
 {
@@ -135,7 +136,7 @@ static bool is_for_here(const struct shared *shared, const percuss_v1_Request *r
            queue_length(shared->lanes[LANE_SHORT]) == 0;
 }
 
-/* How long a solve may keep the reading thread. */
+/* The time that a solve may take of the reading thread. */
 struct time_limit {
     double end; /* monotonic, s */
     bool over;
@@ -149,7 +150,7 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
 }
 
 /* Whether a body's vibration may have to be computed first, which takes up to some seconds and
- * asks eight times on the way. */
+ * calls is_quick eight times. */
 static bool may_prepare(const struct snapshot *snapshot, const percuss_v1_Request *request)
 {
     for (uint32_t i = 0; i < request->bodies._length; i++) {
@@ -160,7 +161,7 @@ static bool may_prepare(const struct snapshot *snapshot, const percuss_v1_Reques
     return false;
 }
 
-/* False: it takes longer than the reading thread has; nothing is answered yet. */
+/* False: the solve took too long and was given up; the request is not answered yet. */
 static bool answer_here(struct dispatch *dispatch, const struct request_name *name,
                         const percuss_v1_Request *request, double arrival)
 {
@@ -171,7 +172,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
         snapshots_release(&shared->snapshots, snapshot);
         return false;
     }
-    /* wanted as long as it is quick */
+    /* the solve ends when the time is over */
     struct question question = {
         .request = request,
         .snapshot = snapshot,
@@ -181,7 +182,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
         .context = &limit,
     };
     struct answer *answer = responder_answer(dispatch->responder, &question);
-    /* what was given up on the way says nothing to the client */
+    /* a solve that was given up has no answer */
     if (!limit.over)
         deliver(shared, name, answer);
     answer_release(answer);
@@ -189,7 +190,8 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
     return !limit.over;
 }
 
-/* Its client does not wait for a request any more. What is not known here was answered before. */
+/* Its client does not wait for a request any more. One that is not in a queue was answered before.
+ */
 static void withdraw(struct shared *shared, const struct request_name *name)
 {
     struct job *withdrawn = NULL;
@@ -218,10 +220,10 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
         deliver_at_once(shared, &name, PERCUSS_OK, "");
         return;
     }
-    /* what was asked before */
+    /* a repetition */
     if (!admit(shared, &name, question_digest_single(request), arrival))
         return;
-    /* what does not end soon here the workers solve from its beginning: the same bits */
+    /* a solve that is given up here is begun anew by a worker, with the same bits */
     bool sole = is_sole(dispatch, request->client, arrival);
     if (alone && sole && is_for_here(shared, request) &&
         answer_here(dispatch, &name, request, arrival))
@@ -263,7 +265,7 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
         enqueue(shared, &name, ensemble_job_create(shared, &name, request, arrival));
 }
 
-/* In its turn among the requests; a client that sees no effect asks again. */
+/* Queued among the requests that name specimens; a client that sees no effect asks again. */
 static void receive_clear(void *context, const char *specimen)
 {
     struct shared *shared = ((struct dispatch *)context)->shared;
@@ -282,7 +284,7 @@ static void receive_clear(void *context, const char *specimen)
         job->kind->release(job);
 }
 
-/* A client that gets no replies: logged once a second at most, and then how many there were. */
+/* Logs clients that get no replies: a line a second at most, with their number since the last. */
 static void note_refused(struct dispatch *dispatch, const char *client)
 {
     double now = clock_now();

@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the reading thread does with every sample: repeats, refuses, answers on the spot or queues.
+/* The reading thread's work on each sample: it repeats a stored reply, refuses, answers or queues.
  */
 #ifndef PERCUSS_DAEMON_DISPATCH_H
 #define PERCUSS_DAEMON_DISPATCH_H
 
 #include "daemon/shared.h"
 
-/* What the reading thread keeps for itself. */
+/* Of the reading thread alone. */
 struct dispatch;
 
 struct dispatch *dispatch_create(struct shared *shared); /* NULL: out of memory */

@@ -17,8 +17,8 @@
 #include "exchange/question.h"
 #include "respond/ensemble_answer.h"
 
-/* Listed samples: parts of about this size, but no more of them than the writer keeps; each may
- * take so many tenths of a second. */
+/* Listed samples: parts of about this size, but no more of them than the writer keeps; writing one
+ * may take PATIENCE tenths of a second. */
 enum { PART_BYTES = 64 * 1024, MOST_PARTS = 1000, PATIENCE = 20 };
 
 static void ensemble_publish_progress(struct shared *shared, const struct ensemble_entry *entry,
@@ -51,7 +51,7 @@ static bool ensemble_publish_samples(struct shared *shared, const struct ensembl
                                      const struct ensemble *ensemble,
                                      const struct ensemble_sample *samples, uint64_t done)
 {
-    /* rows a part */
+    /* rows in a part */
     size_t columns = encode_sample_columns(ensemble);
     uint64_t rows = PART_BYTES / (columns * sizeof(double));
     if (rows * MOST_PARTS < done)
@@ -88,7 +88,7 @@ static bool ensemble_publish_samples(struct shared *shared, const struct ensembl
 struct ensemble_run {
     struct client_job *job;
     struct ensemble_entry *entry;
-    double noticed; /* monotonic, s: when those who wait for their turn heard last */
+    double noticed; /* time of the last message to waiting ensembles; monotonic, s */
 };
 
 static enum ensemble_wish ensemble_asks(void *context)
@@ -172,7 +172,7 @@ struct ensemble_job {
     struct client_job base;
     struct ensemble_entry entry;
     percuss_v1_Request *scene;           /* a copy */
-    percuss_v1_EnsembleRequest *request; /* a copy of the rest, whose scene is that */
+    percuss_v1_EnsembleRequest *request; /* a copy of the rest, with that scene */
     struct answer *answer;               /* the reply; NULL: not yet, or no memory for it */
 };
 
@@ -221,7 +221,7 @@ static bool ensemble_job_describe(const struct job *job, struct task *task)
     return client_job_describe((const struct client_job *)job, percuss_v1_TASK_ENSEMBLE, task);
 }
 
-/* Cancelled by its client it still has a reply. */
+/* Without `withdraw`: an ensemble that its client cancels still has a reply. */
 static const struct job_kind ensemble_kind = {ensemble_job_run,
                                               ensemble_job_refuse,
                                               ensemble_job_report,
@@ -236,7 +236,7 @@ struct client_job *ensemble_job_create(struct shared *shared, const struct reque
     struct ensemble_job *job = calloc(1, sizeof *job);
     if (!job)
         return NULL;
-    /* copies: what was taken goes back to DDS */
+    /* copies: the sample goes back to DDS */
     job->scene = question_copy(&request->scene, 1);
     job->request = question_copy_ensemble(request);
     if (!job->scene || !job->request) {
@@ -250,7 +250,7 @@ struct client_job *ensemble_job_create(struct shared *shared, const struct reque
     job_init(&job->base.job, &ensemble_kind, 1, digest_of_octets(name->client));
     client_job_begin(&job->base, shared, name, arrival);
     job->base.lane = LANE_ENSEMBLES;
-    /* by which the client can cancel it, and is told of its turn */
+    /* the entry by which the client cancels it, and gets messages while it waits */
     job->entry.client = job->base.client;
     job->entry.sequence = name->sequence;
     job->entry.samples = request->samples;

@@ -14,13 +14,14 @@
 #include "daemon/log.h"
 #include "store/database_check.h"
 
-/* DDS takes 8 and aborts or crashes without; files of store, catalogue, tables and security come
- * and go; the others are for sockets that a configuration of DDS asks for. */
+/* DDS takes 8, and aborts or crashes without them; files of store, catalogue, tables and security
+ * are open for a time; the others are for sockets that a configuration of DDS asks for. */
 static const rlim_t DESCRIPTORS = 64;
 /* KiB: program, libraries, catalogue, tables and two heaps under a load of six clients are 170 to
- * 200 MiB; the smallest caches. Measured with 2 workers: 352 MB with the stacks of 23 threads. */
+ * 200 MiB; with the smallest caches. Measured with 2 workers: 352 MB with the stacks of 23 threads.
+ */
 static const unsigned long long BASE = 288 * 1024;
-/* DDS, the reading thread, the main one; those of the lanes that each have few. */
+/* Threads of DDS, the reading and the main one, those of lanes with few; ensembles at once. */
 enum { OTHER_THREADS = 16, ENSEMBLES = 3 };
 /* Heaps of the allocator where the address space is limited: each takes 64 MiB of it. */
 enum { HEAPS = 2 };
@@ -97,7 +98,7 @@ enum percuss_status limits_check_place(const char *path, int mode, struct fault 
                      strerror(errno));
 }
 
-/* The limit of a group or of one above it, whichever is lowest. `folder` is cut down to `root`. */
+/* The lowest limit of a group and those above it. `folder` is cut down to `root`. */
 static unsigned long long limits_lowest(char *folder, size_t root, const char *file)
 {
     unsigned long long least = 0;
@@ -159,7 +160,7 @@ bool limits_fit_caches(struct settings *settings, unsigned long long memory,
                        unsigned long long address_space)
 {
     unsigned tokens = settings->token_megabytes, replies = settings->reply_megabytes;
-    /* half of the memory is left for solving; of the address space what is not needed otherwise */
+    /* half of the memory is left for solving; the caches share the address space that is left */
     if (memory) {
         settings->token_megabytes = least_of(settings->token_megabytes, memory / 4);
         settings->reply_megabytes = least_of(settings->reply_megabytes, memory / 4);

@@ -41,8 +41,8 @@ static bool log_rate_is_over(const struct log_kind *kind, double now)
     return now - kind->begun >= LOG_RATE_SECONDS;
 }
 
-/* That of the kind, or a free one, or the one that all further kinds share. A kind that waits for
- * its sum to be taken is not free. */
+/* The entry of the kind, or a free one, or the one that all further kinds share. An entry is not
+ * free while its sum is not taken. */
 static struct log_kind *log_rate_find(struct log_rate *rate, uint64_t kind, double now)
 {
     struct log_kind *free = NULL;
@@ -63,7 +63,7 @@ bool log_rate_admits(struct log_rate *rate, uint64_t kind, enum log_level level,
                      const char *message, double now)
 {
     struct log_kind *found = log_rate_find(rate, kind, now);
-    /* a new period where nothing of the last one is left to be told */
+    /* a new period where the last one has no sum */
     if (found->lines <= LOG_RATE_LINES && log_rate_is_over(found, now))
         *found = (struct log_kind){.kind = kind, .begun = now};
     if (++found->lines <= LOG_RATE_LINES)
@@ -111,7 +111,7 @@ enum { MESSAGE_SIZE = 1200, LINE_SIZE = 6 * MESSAGE_SIZE + 200, ID_SIZE = 33 };
 static atomic_int limit = LEVEL_INFO;
 static enum log_format used_format = LOG_TEXT;
 
-/* Of the process, as its log is. */
+/* Of the process, as stderr is. */
 static bool rate_is_limited;
 static struct log_rate rate;
 static pthread_mutex_t rate_lock = PTHREAD_MUTEX_INITIALIZER;
@@ -254,7 +254,7 @@ static void log_put_line(enum log_level level, const struct log_request *request
     (void)written;
 }
 
-/* Whoever asks for the debug level gets all of it. */
+/* The debug level has no limit. */
 static bool log_admits(enum log_level level, const char *format, const char *message)
 {
     if (!rate_is_limited || level == LEVEL_DEBUG)
@@ -310,7 +310,7 @@ void log_about(enum log_level level, const struct log_request *request, const ch
     va_end(arguments);
 }
 
-/* The first line says what happened; what security plugins add below are traces of libraries. */
+/* Takes the first line; below it, security plugins add traces of libraries. */
 static void log_dds_line(void *context, const dds_log_data_t *data)
 {
     (void)context;

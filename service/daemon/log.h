@@ -26,11 +26,12 @@ void log_use(enum log_format format);
 void log_limit_rate(void);
 
 /* From now on the messages of Cyclone DDS go into the log: most of them are about malformed packets
- * and strangers, and anybody that reaches a port can cause them. Before the first entity of DDS. */
+ * and unknown participants, and any host that reaches a port can cause them. Before the first
+ * entity of DDS. */
 void log_take_dds(void);
 
-/* Tells how many lines were left out, of kinds whose minute is over, or of `all`. Once a second and
- * at the end. Thread-safe. */
+/* Logs the number of lines that were left out, of kinds with a minute that is over, or of `all`.
+ * Once a second and at the end. Thread-safe. */
 void log_sum_up(bool all);
 
 /* One line; control characters in it become spaces. Thread-safe. */
@@ -65,15 +66,15 @@ struct log_rate {
     } kinds[LOG_RATE_KINDS + 1];
 };
 
-/* Lines of different kinds differ in more than numbers: the format tells, or the message where the
- * format is "%s". */
+/* The kind of a line: by its format, or its message where the format is "%s", without the numbers.
+ */
 uint64_t log_rate_kind(const char *format, const char *message);
 
 /* Whether a line is written. False: it is counted. */
 bool log_rate_admits(struct log_rate *rate, uint64_t kind, enum log_level level,
                      const char *message, double now);
 
-/* Takes the sum of a kind whose period is over (`all`: of any kind) and that has left lines out, as
+/* Takes the sum of a kind that has left lines out and has its period over (`all`: of any kind), as
  * "and 8,123 more in 60 s: MESSAGE" in `text`. False: there is none. */
 bool log_rate_sum(struct log_rate *rate, double now, bool all, enum log_level *level, char *text,
                   size_t size);

@@ -133,7 +133,7 @@ static error_t arguments_parse(int key, char *text, struct argp_state *state)
     case KEY_STORE:
         arguments->check_store = text;
         return 0;
-    /* all are read */
+    /* all options are read */
     case ARGP_KEY_END:
         arguments_environment(state, arguments);
         return 0;
@@ -265,7 +265,7 @@ static void look_at_place(const char *standby)
 static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier,
                   const char *standby)
 {
-    /* signs of life are due more often than the manager looks for them */
+    /* signs of life are sent more often than the manager expects them */
     double period = notifier->watchdog > 0.0 ? fmin(1.0, 0.25 * notifier->watchdog) : 1.0;
     notify(notifier, "READY=1");
     for (;;) {
@@ -284,7 +284,7 @@ static void serve(struct service *service, const sigset_t *signals, const struct
     }
 }
 
-/* Answers what is queued, for a bounded time or until the signal comes again. */
+/* Answers the queued requests, for a bounded time or until the signal comes again. */
 static bool drain(struct service *service, const sigset_t *signals, double seconds,
                   const struct notifier *notifier)
 {

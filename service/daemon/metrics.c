@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Two bounds a decade are enough to tell a cheap impact from one that waited. */
+/* Two bounds a decade separate a cheap impact from one that waited. */
 static const double TIMES[METRICS_BUCKETS] = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2,  3e-2,
                                               1e-1, 3e-1, 1.0,  3.0,  10.0, 30.0, 100.0, 300.0};
 static const double SHARES[METRICS_BUCKETS] = {1e-12, 1e-11, 1e-10, 1e-9, 3e-9, 1e-8, 3e-8, 1e-7,
@@ -53,7 +53,7 @@ void metrics_count_refusal(struct metrics *metrics, enum exchange exchange,
         metrics_add(&metrics->replies[exchange][status]);
 }
 
-/* Of one that was solved, how long that took and how well its energy balances. */
+/* Of an impact that was solved, also the times and the closure of its energy. */
 static void metrics_count_reply(struct metrics *metrics, enum exchange exchange,
                                 const percuss_v1_Reply *reply)
 {

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the daemon counts of its work, for who watches it from outside. Any thread. */
+/* Counters and histograms of the daemon's work, for a monitoring system. Any thread. */
 #ifndef PERCUSS_DAEMON_METRICS_H
 #define PERCUSS_DAEMON_METRICS_H
 
@@ -23,10 +23,10 @@ struct metrics {
     atomic_ullong replies[EXCHANGE_COUNT][PERCUSS_STATUS_COUNT]; /* of a batch each one */
     atomic_ullong pings, reloads, failed_reloads;
     struct histogram waits, solves, commits; /* s */
-    struct histogram closures;               /* of the energy, shares of what was available */
+    struct histogram closures;               /* of the energy, shares of the available energy */
 };
 
-/* A reply that is sent, and one that is no more than its status. */
+/* Counts a reply, and one that has a status alone. */
 void metrics_count(struct metrics *metrics, const struct answer *answer);
 void metrics_count_refusal(struct metrics *metrics, enum exchange exchange,
                            enum percuss_status status);

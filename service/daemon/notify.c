@@ -25,7 +25,7 @@ static int connect_to(const char *name)
     if (*name == '@')
         address.sun_path[0] = '\0';
     socklen_t size = (socklen_t)(offsetof(struct sockaddr_un, sun_path) + length);
-    /* nobody waits for a manager that does not listen */
+    /* the daemon does not wait for a manager that does not listen */
     int made = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (made >= 0 && connect(made, (const struct sockaddr *)&address, size) != 0) {
         close(made);

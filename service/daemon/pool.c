@@ -17,8 +17,7 @@
 #include "exchange/clock.h"
 #include "respond/responder.h"
 
-/* Solves ask deep inside whether they are still wanted, and know nothing of the thread they are in.
- */
+/* Per thread: the beats come from deep inside a solve, which does not know its thread. */
 static _Thread_local struct heartbeat *own_heartbeat;
 
 static void heartbeat_set(double last)
@@ -49,7 +48,7 @@ double heartbeat_silence(const struct heartbeat *heartbeat, double now)
     return last > 0.0 ? fmax(0.0, now - last) : 0.0;
 }
 
-/* What is asked for at a time: more than this has a mapping of its own, which goes when it is
+/* Bytes of one allocation: a larger one has a mapping of its own, which is unmapped when it is
  * freed (M_MMAP_THRESHOLD, mallopt(3)). */
 static const size_t PIECE = 64 * 1024;
 
@@ -90,7 +89,7 @@ struct pool *pool_create(size_t most)
     return pool;
 }
 
-/* Does an item, or has it done by slower workers; who then may release the job at any time. */
+/* Does an item, or passes it on to slower workers, which then may release the job at any time. */
 static void worker_do_item(const struct worker *worker, struct job *job, size_t item)
 {
     struct digest owner = job->owner;

@@ -54,7 +54,7 @@ double heartbeat_silence(const struct heartbeat *heartbeat, double now);
 
 /* Makes the allocator keep so many bytes for the calling thread that the system has mapped already.
  * A thread's heap grows page by page otherwise, by a system call and a page fault each: two or
- * three microseconds of each of a client's first thousand questions, whose replies are kept.
+ * three microseconds of each of a client's first thousand requests, as their replies are kept.
  * No effect where the memory is not available. */
 void memory_keep(size_t bytes);
 

@@ -46,11 +46,11 @@ void job_refuse(struct job *job)
     job->kind->release(job);
 }
 
-/* Of a client whose item took long so many more are passed on untried: trying them all costs others
- * the time that each is given before. */
+/* After an item that took long, so many more of its client are passed on untried: a trial of each
+ * costs other clients the time until it is given up. */
 enum { EXPECTED_CLIENTS = 64, UNTRIED = 16 };
 
-/* A client who has jobs that wait or are being done. */
+/* The queue of a client that has jobs that wait or are being done. */
 struct client_queue {
     struct key_node node; /* key: the owner of its jobs */
     TAILQ_HEAD(waiting_jobs, job) jobs;
@@ -69,8 +69,8 @@ struct queue {
     bool closed;
     struct key_map clients;
     TAILQ_HEAD(client_turns, client_queue)
-    turns;                          /* whose jobs wait; the first one is served next */
-    LIST_HEAD(live_jobs, job) live; /* that wait or are being done */
+    turns;                          /* clients with waiting jobs; the first is served next */
+    LIST_HEAD(live_jobs, job) live; /* jobs that wait or are being done */
 };
 
 struct queue *queue_create(size_t capacity, size_t share)
@@ -153,8 +153,8 @@ static void client_queue_pull(struct queue *queue, struct client_queue *client, 
     queue->length--;
 }
 
-/* Takes out the last job that has not begun of whoever has most waiting, if that is more than
- * `others`; NULL: nobody has. */
+/* Takes out the last job that has not begun of the client with most waiting jobs, if it has more
+ * than `others`; otherwise NULL. */
 static struct job *queue_displace(struct queue *queue, size_t others)
 {
     struct client_queue *client, *most = NULL;
@@ -182,7 +182,7 @@ static bool queue_put_locked(struct queue *queue, struct job *job, struct job **
     struct client_queue *client = client_queue_open(queue, job->owner);
     if (!client)
         return false;
-    /* one more of this client must still be no more than the other one keeps */
+    /* the other client must keep at least as many jobs as this one then has */
     if (queue->length >= queue->capacity)
         *displaced = queue_displace(queue, client->waiting + 1);
     if (queue->length >= queue->capacity) {
@@ -208,7 +208,7 @@ bool queue_put(struct queue *queue, struct job *job, struct job **displaced)
     return accepted;
 }
 
-/* The client whose turn it is; NULL: nobody who waits may have more done at once. */
+/* The client that is served next; NULL: each waiting client has its share of workers. */
 static struct client_queue *queue_find_next(const struct queue *queue)
 {
     struct client_queue *client;
@@ -252,7 +252,8 @@ void queue_done(struct queue *queue, struct digest owner, struct job *ended)
     struct client_queue *client = client_queue_find(queue, owner);
     if (ended)
         LIST_REMOVE(ended, live);
-    /* where a client had its share, one who waits may go on; and the last one ends all */
+    /* a client that had its share may be served again; the last item of a closed queue ends all
+     * workers */
     if (client->running-- == queue->share || queue->closed)
         pthread_cond_broadcast(&queue->filled);
     client_queue_drop_if_idle(queue, client);
@@ -353,7 +354,7 @@ static void queue_take_out(struct queue *queue, struct job *job)
     client_queue_drop_if_idle(queue, client);
     if (queue->running == 0 && queue->length == 0)
         pthread_cond_broadcast(&queue->drained);
-    /* whoever waits for more in a queue that is closed waits in vain */
+    /* workers that wait at a closed queue end */
     if (queue->closed)
         pthread_cond_broadcast(&queue->filled);
 }
@@ -435,7 +436,7 @@ static void demoted_cancel(struct job *job)
     parent->kind->cancel(parent);
 }
 
-/* Whoever cancels the errand finds its parent there till then. */
+/* The parent stays until here: a cancelled demoted item uses it. */
 static void demoted_release(struct job *job)
 {
     struct demoted *demoted = (struct demoted *)job;
@@ -446,7 +447,7 @@ static void demoted_release(struct job *job)
     free(demoted);
 }
 
-/* Its parent is told of. */
+/* The status lists its parent, and withdraws that. */
 static const struct job_kind demoted_kind = {
     demoted_run, demoted_refuse, demoted_report, demoted_cancel, demoted_release, NULL, NULL};
 

@@ -47,8 +47,8 @@ struct job_kind {
     /* Fills the task; false: no client waits for it any more. Any thread, as long as the job is in
      * a queue or being done. NULL: it is not listed. */
     bool (*describe)(const struct job *job, struct task *task);
-    /* Whether it is the request of that name, whose client does not wait for it any more: it gets
-     * no reply, and the rest of it is given up soon. As `describe`. NULL: no client's request. */
+    /* Whether it is the request of that name. Its client does not wait for it any more: it gets no
+     * reply, and the rest of it is given up soon. As `describe`. NULL: no client's request. */
     bool (*withdraw)(struct job *job, const struct request_name *name);
 };
 
@@ -57,7 +57,7 @@ struct job {
     const struct job_kind *kind;
     size_t items;        /* >= 1 */
     atomic_size_t left;  /* items that are not done */
-    struct digest owner; /* the client whose turn it takes; zero: of no client */
+    struct digest owner; /* the client that it takes the turns of; zero: none */
     /* the queue's, under its lock */
     struct queue *queue; /* that it was put into */
     size_t next;         /* first item that no worker has taken */

@@ -28,7 +28,7 @@
 enum { NAME_LENGTH = 64 }; /* of an order: a hash in hexadecimal */
 
 static const double DAY = 86400.0; /* s */
-/* A process of another machine, which is not seen here, may be in work that long. */
+/* A reduction by another machine's process, which is not visible here, may take that long. */
 static const double LEFT_BEHIND_DAYS = 2.0;
 
 static const struct body_order *cache_find_order(const struct body_set *set, const char *name)
@@ -39,7 +39,7 @@ static const struct body_order *cache_find_order(const struct body_set *set, con
     return NULL;
 }
 
-/* "1234.messages": a file of a process that is there no more. */
+/* "1234.messages": a file of a process that has ended. */
 static bool cache_is_orphan(const char *suffix)
 {
     static const char *const kinds[] = {".h5", ".h5.part", ".messages", ".yaml"};
@@ -51,7 +51,7 @@ static bool cache_is_orphan(const char *suffix)
     return known && process > 0 && kill((pid_t)process, 0) != 0 && errno == ESRCH;
 }
 
-/* The days that a file stays unused before it goes; negative: for ever. */
+/* The days without use after which a file is deleted; negative: never. */
 static double cache_days_of(const char *name, const struct body_set *set, double days)
 {
     if (strspn(name, "0123456789abcdef") != NAME_LENGTH || name[NAME_LENGTH] != '.')
@@ -98,13 +98,13 @@ void reducer_tidy(const char *folder, const struct body_set *set, double days)
 
 /* The child process. */
 
-static const int NICE = 15; /* below the long lane, which somebody waits for */
+static const int NICE = 15; /* below the long lane, for which clients wait */
 
 enum { BODY, MESSAGES, MATERIAL };
 
 static const char REFUSED[] = ".failed", KILLED[] = ".killed"; /* files with the reason */
 
-/* Whether a file of the folder is the reason of a failure of that kind. */
+/* Whether a file of the folder has the reason of a failure of that kind. */
 static bool reducer_is_reason(const char *name, const char *kind)
 {
     return strlen(name) == 64 + strlen(kind) && strcmp(name + 64, kind) == 0;
@@ -125,7 +125,7 @@ static void reducer_forget(const struct reducer *reducer, bool refusals)
 void reducer_begin(struct reducer *reducer, const char *folder)
 {
     *reducer = (struct reducer){.folder = folder};
-    /* one level: what is above it is for an administrator to make */
+    /* one level: an administrator makes the folders above it */
     if (folder[0])
         mkdir(folder, 0755);
     reducer_forget(reducer, true);
@@ -147,7 +147,7 @@ static void reducer_drop_files(struct reducer *reducer)
     }
 }
 
-/* Tells who asks for what is, or was, in work; two bodies may be of one mesh. */
+/* Sets the message to clients that ask for the body; two bodies may be of one mesh. */
 static void __attribute__((format(printf, 4, 5)))
 reducer_tell(const struct reducer *reducer, const struct body_set *set, enum percuss_status status,
              const char *format, ...)
@@ -210,7 +210,7 @@ static bool reducer_write_text(const char *path, const char *text)
     return false;
 }
 
-/* The program beside this one, else as PATH knows it. */
+/* The program beside this one, else the one that PATH finds. */
 static void reducer_find_program(char path[PATH_MAX])
 {
     static const char name[] = "percuss-reduce";
@@ -225,7 +225,7 @@ static void reducer_find_program(char path[PATH_MAX])
     strcpy(path, name);
 }
 
-/* 0, or an error's number. Signals are as they were before this program blocked its own. */
+/* 0, or an error's number. The child blocks and ignores no signals. */
 static int reducer_spawn(struct reducer *reducer, char **arguments)
 {
     char program[PATH_MAX];
@@ -234,7 +234,7 @@ static int reducer_spawn(struct reducer *reducer, char **arguments)
     sigset_t none, pipe;
     reducer_find_program(program);
     unlink(reducer->files[MESSAGES]);
-    /* messages to their file, and nothing else of ours */
+    /* messages go to their file; the child has no other descriptor of ours */
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
@@ -298,7 +298,7 @@ static void reducer_start(struct reducer *reducer, const struct body_set *set,
     reducer_drop_files(reducer);
 }
 
-/* How far the child is: its last line of progress, "percuss-reduce:  43.2 %  modes, 12 s left". */
+/* Reads the child's progress: its last line, "percuss-reduce:  43.2 %  modes, 12 s left". */
 static void reducer_follow(struct reducer *reducer, const struct body_set *set)
 {
     char text[2048], *line, *rest = text, stage[120] = "";
@@ -342,7 +342,7 @@ static void reducer_last_message(const char *path, char text[400])
     fclose(file);
 }
 
-/* Puts what the child has made, or why it has made nothing, where the catalogue finds it. */
+/* Puts the child's body, or the reason of its failure, where the catalogue finds it. */
 static void reducer_conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
     char reason[400];
@@ -352,7 +352,7 @@ static void reducer_conclude(struct reducer *reducer, const struct body_set *set
                              : WIFSIGNALED(status) ? KILLED
                                                    : REFUSED);
     if (made) {
-        /* a body that has its name is whole, whatever becomes of the machine */
+        /* a body under its final name is whole, even after a crash of the machine */
         noted = path && !atomic_file_rename(reducer->files[BODY], path, NULL);
         reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
@@ -392,7 +392,7 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
     }
 }
 
-/* Whether the folder lacks an order's body and knows no reason why. */
+/* Whether the folder has neither an order's body nor the reason of its failure. */
 static bool reducer_order_is_open(const struct reducer *reducer, const struct body_order *order)
 {
     static const char *const suffixes[] = {".h5", REFUSED, KILLED};
@@ -408,7 +408,7 @@ static bool reducer_order_is_open(const struct reducer *reducer, const struct bo
 bool reducer_look(struct reducer *reducer, const struct body_set *set)
 {
     int status;
-    /* the one that runs */
+    /* the running child */
     if (reducer->child) {
         pid_t ended = waitpid(reducer->child, &status, WNOHANG);
         if (ended != reducer->child) {
@@ -419,7 +419,7 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
         reducer_conclude(reducer, set, status);
         return true;
     }
-    /* or the next */
+    /* or the next one */
     for (size_t i = 0; i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
         if (!reducer_order_is_open(reducer, order))
@@ -440,7 +440,7 @@ void reducer_end(struct reducer *reducer)
     reducer_halt(reducer, "the server is shutting down");
     if (!reducer->child)
         return;
-    /* it keeps nothing that it would have to put away; Gmsh, which it may run, goes with it */
+    /* it leaves no state behind; the signal ends Gmsh, which it may run, too */
     kill(-reducer->child, SIGKILL);
     waitpid(reducer->child, NULL, 0);
     reducer->child = 0;

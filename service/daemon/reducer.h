@@ -43,8 +43,8 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
 void reducer_end(struct reducer *reducer);
 
 /* Marks the bodies of the set as used now, by the times of their files, and deletes those that no
- * set has used for so many days, and files that reductions of ended processes left. Touches no file
- * whose name is not of the reducer's form. */
+ * set has used for so many days, and files that reductions of ended processes left. Other files
+ * stay. */
 void reducer_tidy(const char *folder, const struct body_set *set, double days);
 
 /* Whether reduced bodies can be written to that folder, which is or can be made.

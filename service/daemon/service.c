@@ -23,12 +23,12 @@
 
 /* Ensembles that run side by side, each of another client and with threads of its own. */
 enum { ENSEMBLES_AT_ONCE = 3 };
-/* Bytes: a thousand replies and what DDS keeps of them. */
+/* Bytes: a thousand replies and their copies in DDS. */
 static const size_t READER_MEMORY = 8 * 1024 * 1024;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
-/* A body that is in use looks it, to daemons that begin meanwhile. */
+/* So often bodies in use are marked, for other daemons with the same folder. */
 static const double TIDY_SECONDS = 86400.0;
-/* Steps of the time of day that the log tells. */
+/* Smaller steps of the time of day are not logged. */
 static const double TOLD_SECONDS = 1.0;
 
 struct service {
@@ -37,14 +37,14 @@ struct service {
     pthread_t reader;
     bool reader_runs;
     struct heartbeat reader_heartbeat;
-    bool is_stuck; /* which the log has said */
+    bool is_stuck; /* as the log says */
     struct pool *pool;
     struct neighbours neighbours;
     struct reducer reducer;
     struct identity identity;
     struct wire_clock clock;     /* the main thread's */
     double tidied;               /* the folder of bodies; monotonic, s */
-    bool metrics_fail;           /* which the log has said */
+    bool metrics_fail;           /* as the log says */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
 };
 
@@ -56,7 +56,7 @@ static bool open_specimens(struct shared *shared, struct fault *fault)
                               &shared->specimens, fault) == PERCUSS_OK;
 }
 
-/* Whoever comes to this machine's ports, unless something keeps him out. */
+/* Without security every host that reaches this machine's ports may ask. */
 static void tell_who_may_ask(const char *security)
 {
     if (geteuid() == 0)
@@ -68,7 +68,7 @@ static void tell_who_may_ask(const char *security)
                                 "reaches this machine's ports may ask");
 }
 
-/* Specimens are announced before anybody can hit them. */
+/* Specimens are announced before a request can name them. */
 static bool open_endpoint(struct service *service, const uint8_t *server, struct fault *fault)
 {
     struct shared *shared = &service->shared;
@@ -117,7 +117,7 @@ static bool start_workers(struct service *service, struct fault *fault)
 {
     unsigned workers = service->shared.settings->workers;
     unsigned specimens = service->shared.specimens ? 1 : 0;
-    /* one client alone has all processors for what takes long, and leaves a worker to others */
+    /* long solves of one client can use all processors, and leave a worker to others */
     service->pool = pool_create(2 * workers + 2 + ENSEMBLES_AT_ONCE + specimens);
     if (!service->pool) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -195,7 +195,7 @@ struct service *service_create(const struct settings *settings, const uint8_t *s
         service_free(service);
         return NULL;
     }
-    /* bodies before the status: whoever sees a server finds its catalogue */
+    /* bodies before the status: a client that sees a server finds its catalogue */
     const struct body_set *set = shared->snapshots.current->set;
     announce_bodies(service, set, NULL);
     complain_of_missing(set);
@@ -222,7 +222,7 @@ void service_free(struct service *service)
     }
     pool_join(service->pool);
     dispatch_free(service->dispatch);
-    /* what they shared goes */
+    /* the data that they shared is released */
     if (shared->endpoint)
         endpoint_flush(shared->endpoint, FLUSH_SECONDS);
     endpoint_free(shared->endpoint);
@@ -276,7 +276,7 @@ void service_back_up(struct service *service)
         job_refuse(displaced);
 }
 
-/* A file that cannot be written is told once. */
+/* A file that cannot be written is logged once. */
 static void write_metrics(struct service *service)
 {
     struct fault fault;
@@ -299,7 +299,7 @@ static void look_at_reducer(struct service *service)
         activity_clear(&shared->reduction, reducer);
 }
 
-/* A time of day that was set back holds up threads of DDS, so that nobody finds us. */
+/* A time of day that was set back holds up threads of DDS, so that no client finds this daemon. */
 static void look_at_clock(struct service *service)
 {
     const double step = wire_clock_step(&service->clock);
@@ -349,7 +349,7 @@ bool service_is_alive(struct service *service, double patience)
     else if (!stuck && service->is_stuck)
         log_line(LEVEL_WARNING, "all threads move again");
     service->is_stuck = stuck;
-    /* what the reading thread answers by the next time */
+    /* the reading thread beats before the next call */
     endpoint_nudge(service->shared.endpoint);
     return !stuck;
 }

@@ -23,31 +23,31 @@ struct service *service_create(const struct settings *settings, const uint8_t *s
 /* Reads the catalogue again; a bad one is logged and changes nothing. */
 void service_reload(struct service *service);
 
-/* Publishes the status and forgets what has expired: to be called about once a second. */
+/* Publishes the status and drops expired states and replies: to be called about once a second. */
 void service_tick(struct service *service);
 
-/* Whether every thread that should move has moved within the last `patience` seconds; what does not
- * is logged. To be called about as often as service_tick. */
+/* Whether every thread that should move has moved within the last `patience` seconds; one that has
+ * not is logged. To be called about as often as service_tick. */
 bool service_is_alive(struct service *service, double patience);
 
-/* What it does, in a line. */
+/* Its status in a line. */
 void service_describe(struct service *service, char *text, size_t size);
 
 /* From now on new requests are refused. */
 void service_begin_drain(struct service *service);
 
-/* Waits until everything queued is answered and delivered, at most `seconds`. False: not all is. */
+/* Waits until all queued requests are answered and delivered, at most `seconds`. False: some are
+ * not. */
 bool service_drain(struct service *service, double seconds);
 
-/* Gives up what is being solved, with BUSY, ensembles with what they have, and waits for that as
+/* Ends the running solves with BUSY, ensembles with the samples that they have, and waits as
  * service_drain does. */
 bool service_cut_short(struct service *service);
 
 /* Ends the threads and leaves the domain. */
 void service_free(struct service *service);
 
-/* Has the store of specimens looked through and copied, in its turn; the log says what came of it.
- */
+/* Queues a check and a copy of the store of specimens; the log has the result. */
 void service_back_up(struct service *service);
 
 #endif

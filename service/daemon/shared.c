@@ -142,7 +142,7 @@ enum { REMEMBERED_CLIENTS = 4096 };
 
 static const double MEGABYTE = 1048576.0;
 
-/* How many workers of a lane one client may have at once. */
+/* The number of workers of a lane that one client may have at once. */
 static size_t share_of(const struct settings *settings, enum lane lane)
 {
     return lane == LANE_LONG        ? settings->workers
@@ -153,7 +153,7 @@ static size_t share_of(const struct settings *settings, enum lane lane)
 static bool create_stores(struct shared *shared)
 {
     const struct settings *settings = shared->settings;
-    /* how much is remembered, and how long */
+    /* how many, and how long they stay */
     struct token_limits tokens = {
         .count = settings->token_count,
         .bytes = (size_t)(settings->token_megabytes * MEGABYTE),
@@ -165,7 +165,7 @@ static bool create_stores(struct shared *shared)
         .clients = REMEMBERED_CLIENTS,
         .seconds = 60.0 * settings->session_minutes,
     };
-    /* all are tried: what was made is released */
+    /* shared_release frees those that were created */
     shared->tokens = token_store_create(&tokens);
     shared->replies = reply_store_create(&replies);
     bool good = shared->tokens && shared->replies;
@@ -186,7 +186,7 @@ bool shared_create(struct shared *shared, const struct settings *settings, struc
     if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, settings->bodies,
                        fault))
         return false;
-    /* others may have another working folder */
+    /* readers of the status may have another working folder */
     if (!realpath(settings->catalogue, shared->catalogue))
         snprintf(shared->catalogue, sizeof shared->catalogue, "%s", settings->catalogue);
     if (create_stores(shared))

@@ -31,7 +31,7 @@ static void store_complain(void *context, const char *problem)
         log_line(LEVEL_ERROR, "store: %s", problem);
 }
 
-/* Looks through the store and logs what is found. */
+/* Checks the store and logs the result. */
 static enum percuss_status store_look(struct specimen_store *store, struct audit *audit,
                                       struct fault *fault)
 {
@@ -108,7 +108,7 @@ static enum percuss_status lane_open_store(struct specimen_lane *lane, struct fa
 {
     enum percuss_status status =
         specimen_store_open(lane->path, lane->replies, &lane->store, fault);
-    /* how much is lacking, where the volume tells */
+    /* the missing room in the message, where the volume tells it */
     if (status == PERCUSS_BUSY)
         database_room_check(lane->path, fault);
     if (!status)
@@ -139,7 +139,8 @@ enum percuss_status specimen_lane_open(const char *path, unsigned replies,
         specimen_lane_close(created);
         return status;
     }
-    /* a daemon that does not start answers nobody; the next tries would not find more room */
+    /* it starts all the same: a daemon that ends answers no requests, and a restart finds no more
+     * room */
     struct fault room;
     if (status || database_room_check(path, &room))
         log_line(LEVEL_WARNING, "store: %s: requests that name specimens are refused meanwhile",
@@ -194,7 +195,7 @@ bool specimen_lane_concerns(const percuss_v1_Request *request)
     return false;
 }
 
-/* Whether there is a store now. */
+/* Opens the store where there was no room for it before. */
 static enum percuss_status lane_need_store(struct specimen_lane *lane, struct fault *fault)
 {
     if (lane->store)
@@ -207,7 +208,7 @@ static enum percuss_status lane_need_store(struct specimen_lane *lane, struct fa
     return PERCUSS_OK;
 }
 
-/* By the specimen whose impact cannot be stored; PERCUSS_BUSY: for lack of room. */
+/* The message names the specimen; PERCUSS_BUSY: there is no room. */
 static struct answer *lane_refuse_specimen(const struct question *question,
                                            enum percuss_status status, const char *problem)
 {
@@ -241,7 +242,7 @@ static enum percuss_status lane_load_states(struct specimen_lane *lane,
         const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
         const struct body *body = body_set_find(question->snapshot->set, wire->id);
         struct fault reason;
-        /* an unknown body is the solver's to refuse */
+        /* the solver refuses an unknown body */
         if (!wire->specimen[0] || !body)
             continue;
         enum percuss_status status =
@@ -254,7 +255,8 @@ static enum percuss_status lane_load_states(struct specimen_lane *lane,
     return PERCUSS_OK;
 }
 
-/* What the impact did to the specimens; their number. A request that ignores dents leaves none. */
+/* Fills the specimens' new dents; returns their number. A request that ignores dents leaves none.
+ */
 static size_t lane_find_changes(const struct question *question, const struct responder *responder,
                                 struct specimen_change *changes)
 {
@@ -271,7 +273,7 @@ static size_t lane_find_changes(const struct question *question, const struct re
     return count;
 }
 
-/* Makes an answer durable with what the impact did. NULL, or what to refuse the request with. */
+/* Stores an answer with the new dents. NULL, or the message of a refusal. */
 static const char *lane_commit(struct specimen_lane *lane, const struct question *question,
                                const struct responder *responder, const struct answer *answer,
                                struct stored_reply *reply)
@@ -279,7 +281,7 @@ static const char *lane_commit(struct specimen_lane *lane, const struct question
     struct specimen_change changes[PERCUSS_MAX_BODIES];
     struct fault fault;
     size_t count = lane_find_changes(question, responder, changes);
-    /* the reply as it is sent when the same is asked again */
+    /* the reply as it is sent to a repeated request */
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
         return "out of memory: nothing has changed, ask again";
@@ -292,7 +294,7 @@ static const char *lane_commit(struct specimen_lane *lane, const struct question
         log_line(LEVEL_ERROR, "%s", fault.text);
         return "the store of specimens failed: nothing has changed, ask again";
     }
-    /* others are told what is new */
+    /* announces the new dents */
     atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
         lane_announce_again(lane, changes[i].name);
@@ -322,7 +324,7 @@ static struct answer *lane_compute(struct specimen_lane *lane, struct responder 
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL, problem);
 }
 
-/* Kept nowhere, so that the request whose number it is still finds its own reply. */
+/* Not stored, so that the first request of that number still finds its own reply. */
 static struct answer *lane_refuse_number(const struct question *question,
                                          enum percuss_status status, const char *reason)
 {
@@ -335,7 +337,7 @@ static struct answer *lane_refuse_number(const struct question *question,
     return answer;
 }
 
-/* A reply that was kept and cannot be given: what the request did to its specimens stays. */
+/* A stored reply that cannot be read: the dents of its impact stay. */
 static struct answer *lane_refuse_damaged(const struct question *question, const char *problem)
 {
     log_line(LEVEL_ERROR, "%s", problem);
@@ -346,7 +348,7 @@ static struct answer *lane_refuse_damaged(const struct question *question, const
         "number");
 }
 
-/* Whether there is a reply nobody knows now. */
+/* It is unknown now whether there is a stored reply. */
 static struct answer *lane_refuse_for_now(const struct question *question, const char *problem)
 {
     log_line(LEVEL_ERROR, "%s", problem);
@@ -375,7 +377,7 @@ static struct answer *lane_recall(const struct question *question, const struct 
 struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder *responder,
                                     const struct question *question)
 {
-    /* what the request and its reply are known by */
+    /* the key of the request and its reply */
     struct digest content = question_digest_single(question->request);
     struct stored_reply reply = {.sequence = question->envelope.sequence,
                                  .content = {content.first, content.second}};
@@ -385,14 +387,14 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
     enum percuss_status status = lane_need_store(lane, &fault);
     if (status)
         return lane_refuse_specimen(question, status, fault.text);
-    /* what was answered before */
+    /* a reply that is stored */
     status = specimen_store_find(lane->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
         return kept.damaged ? lane_refuse_damaged(question, fault.text)
                             : lane_refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
-    /* the same again, or what the impact does */
+    /* repeats it, or solves the impact */
     struct answer *answer = kept.bytes ? lane_recall(question, &kept, content)
                                        : lane_compute(lane, responder, question, &reply);
     free(kept.bytes);

@@ -20,10 +20,10 @@
 /* 32 hexadecimal digits and the end of the line. */
 enum { LINE_SIZE = 33 };
 
-/* The file whose lock this process has, or -1. The lock is the process's, and so is this. */
+/* The file that this process has locked, or -1. A global, as the lock is the process's. */
 static int held = -1;
 
-/* Between two looks at whether the place is free: far below the lease of a killed daemon. */
+/* Between two tries to take the place: far below the lease of a killed daemon. */
 static const struct timespec TURN = {.tv_nsec = 50000000};
 
 static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
@@ -43,7 +43,7 @@ static enum percuss_status lock(int file, const char *path, struct fault *fault)
     return refuse(path, strerror(errno), fault);
 }
 
-/* False: that is no line of ours. */
+/* False: the line is no server id. */
 static bool parse(const char line[LINE_SIZE], uint8_t server[16])
 {
     static const char digits[] = "0123456789abcdef";
@@ -57,7 +57,7 @@ static bool parse(const char line[LINE_SIZE], uint8_t server[16])
     return line[LINE_SIZE - 1] == '\n';
 }
 
-/* A new id, on the disk before anybody hears of it. */
+/* A new id, on the disk before it is published. */
 static enum percuss_status draw(int file, const char *path, uint8_t server[16], struct fault *fault)
 {
     char line[LINE_SIZE + 1];
@@ -94,7 +94,7 @@ enum percuss_status standby_take(const char *path, uint8_t server[16], struct fa
     enum percuss_status status = lock(file, path, fault);
     if (!status)
         status = identify(file, path, server, fault);
-    /* left open where it is locked, to the end of the process */
+    /* a locked file stays open to the end of the process */
     if (status)
         close(file);
     else
@@ -116,7 +116,7 @@ bool standby_is_held(const char *path)
            locked.st_ino == named.st_ino;
 }
 
-/* Whether the catalogue could be served: better said now than when it is needed. */
+/* Whether the catalogue can be loaded: an error is logged now rather than when it takes over. */
 static enum percuss_status try_catalogue(const struct settings *settings, struct fault *fault)
 {
     struct body_set *set;
@@ -147,7 +147,7 @@ enum standby_end standby_wait(const struct settings *settings, const sigset_t *s
     double told = -INFINITY;
     if (status != PERCUSS_BUSY)
         return status ? STANDBY_FAILED : STANDBY_TAKEN;
-    /* it can take over, and says that it waits */
+    /* check that it can take over, and tell the manager that it waits */
     log_line(LEVEL_INFO, "standby: %s: waits until it ends", fault->text);
     if (try_catalogue(settings, fault))
         return STANDBY_FAILED;

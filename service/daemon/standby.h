@@ -34,7 +34,7 @@ bool standby_is_held(const char *path);
 enum standby_end { STANDBY_TAKEN, STANDBY_STOPPED, STANDBY_FAILED };
 
 /* Waits for the place that the settings name: until it is this process's, a signal asks for the
- * end, or a fault. The manager and the log are told. While it waits, SIGHUP makes it check the
+ * end, or a fault. The manager and the log get messages. While it waits, SIGHUP makes it check the
  * catalogue. */
 enum standby_end standby_wait(const struct settings *settings, const sigset_t *signals,
                               const struct notifier *notifier, uint8_t server[16],

@@ -99,7 +99,7 @@ void status_describe(struct shared *shared, char *text, size_t size)
     snapshots_release(&shared->snapshots, snapshot);
 }
 
-/* The tasks as they are told. */
+/* Fills the status with the tasks. */
 static void status_list_tasks(struct shared *shared, percuss_v1_Task list[TASKS_LISTED],
                               percuss_v1_ServerStatus *status)
 {
@@ -139,7 +139,7 @@ void status_announce(struct shared *shared)
         .others = atomic_load(&shared->others),
         .specimens = shared->specimens ? (uint32_t)specimen_lane_count(shared->specimens) : 0,
     };
-    /* its texts; what somebody waits for first */
+    /* its texts; the solver's activity, for which clients wait, before the reduction's */
     activity_read(&shared->activity, status.activity, sizeof status.activity, &status.progress);
     if (!status.activity[0])
         activity_read(&shared->reduction, status.activity, sizeof status.activity,
@@ -205,7 +205,7 @@ static void metrics_print_state(struct shared *shared, FILE *file)
             atomic_load(&shared->undelivered));
 }
 
-/* By the names that every exporter uses. */
+/* Under the names that every exporter uses. */
 static void metrics_print_process(FILE *file)
 {
     struct rusage used;
@@ -242,7 +242,7 @@ bool status_write_metrics(struct shared *shared, const char *path, struct fault 
 {
     struct atomic_file aside;
     struct fault reason = {""};
-    /* its name does not end as those do that monitoring systems look for */
+    /* its suffix is not one that monitoring systems look for */
     int descriptor = atomic_file_create(&aside, path, 0666, &reason);
     FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
     if (descriptor >= 0 && !file)
@@ -252,7 +252,7 @@ bool status_write_metrics(struct shared *shared, const char *path, struct fault 
         fault_set(&reason, PERCUSS_INTERNAL, "%.300s: %s", path, strerror(errno));
         atomic_file_abandon(&aside);
     }
-    /* not synchronised: it is of one second, and the main thread must not wait for the disk */
+    /* not synchronised: it is valid for a second, and the main thread must not wait for the disk */
     good = good && !atomic_file_finish(&aside, false, &reason);
     if (!good)
         fault_set(fault, PERCUSS_INTERNAL, "metrics: %s", reason.text);
@@ -309,7 +309,7 @@ static void neighbour_note(void *context, const percuss_v1_ServerStatus *status)
     neighbours->others += memcmp(status->server, look->server, 16) != 0;
     if (!neighbour)
         return;
-    /* who it is */
+    /* its id and name */
     bool is_new = neighbour == &neighbours->each[neighbours->count];
     if (is_new) {
         memcpy(neighbour->server, status->server, sizeof neighbour->server);
@@ -319,7 +319,7 @@ static void neighbour_note(void *context, const percuss_v1_ServerStatus *status)
                  status->host);
         neighbours->count++;
     }
-    /* what is new of it */
+    /* changes of it */
     neighbour->there = true;
     if (!is_new && alike == neighbour->alike)
         return;

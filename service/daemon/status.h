@@ -28,7 +28,7 @@ struct tasks {
 };
 
 /* The tasks that run and wait now. No record of them is kept while requests are answered: they are
- * looked up in the queues. A task whose client has gone, and that has not begun, is left out.
+ * looked up in the queues. A task that has not begun is left out if its client has gone.
  * Any thread. */
 void tasks_look(struct shared *shared, struct tasks *tasks);
 

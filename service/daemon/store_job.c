@@ -24,7 +24,7 @@ static bool clear_run(struct job *job, size_t item, struct responder *responder)
     return true;
 }
 
-/* Nobody waits for an answer: a client that sees no effect asks again. */
+/* Has no reply: a client that sees no effect asks again. */
 static void clear_refuse(struct job *job, size_t item)
 {
     (void)item;
@@ -69,7 +69,7 @@ static bool backup_run(struct job *job, size_t item, struct responder *responder
     return true;
 }
 
-/* Whoever asked for it reads the log. */
+/* Has no reply: the administrator reads the log. */
 static void backup_refuse(struct job *job, size_t item)
 {
     (void)job, (void)item;
