@@ -9,8 +9,8 @@
 #include <string.h>
 #include <sys/random.h>
 
-#include "endpoint/inbox.h"
-#include "endpoint/owners.h"
+#include "endpoint/authorisation.h"
+#include "endpoint/writer_queues.h"
 #include "exchange/describe.h"
 #include "exchange/text.h"
 #include "wire_clock.h"
@@ -26,14 +26,14 @@ enum { TAKEN_AT_ONCE = 32, TAKEN_BEFORE = 32 * TAKEN_AT_ONCE, SERVED_AT_ONCE = 1
 struct intake {
     enum exchange exchange;
     dds_entity_t reader;
-    void *sample;        /* the one at hand; its memory serves the next one */
-    struct inbox *inbox; /* of serialised data */
+    void *sample;                 /* the one at hand; its memory serves the next one */
+    struct writer_queues *queues; /* of serialised data */
 };
 
 /* The means to decide about a request, and its handler. */
-struct intake_desk {
-    const uint8_t *server;  /* this one's id */
-    struct owners *owners;  /* of clients' ids */
+struct intake_context {
+    const uint8_t *server;               /* this one's id */
+    struct authorisation *authorisation; /* of clients' ids */
     atomic_ullong *strange; /* counts requests with the id of a client that did not send them */
     const struct endpoint_handler *handler;
 };
@@ -60,8 +60,8 @@ static bool intake_open(struct intake *intake, enum exchange exchange, dds_entit
     const dds_topic_descriptor_t *type = requests[exchange].type;
     *intake = (struct intake){.exchange = exchange,
                               .sample = dds_alloc(type->m_size),
-                              .inbox = inbox_create(WIRE_WINDOW, intake_drop)};
-    if (!intake->inbox) {
+                              .queues = writer_queues_create(WIRE_WINDOW, intake_drop)};
+    if (!intake->queues) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return false;
     }
@@ -77,7 +77,7 @@ static bool intake_open(struct intake *intake, enum exchange exchange, dds_entit
 
 static void intake_close(struct intake *intake)
 {
-    inbox_free(intake->inbox);
+    writer_queues_free(intake->queues);
     if (intake->sample)
         dds_sample_free(intake->sample, requests[intake->exchange].type, DDS_FREE_ALL);
 }
@@ -111,17 +111,17 @@ static const uint8_t *intake_addressee(const struct intake *intake, const uint8_
 
 /* Whether the sample at hand is for this server, or any, and its client's own. A stranger gets no
  * reply: it would go to the client. */
-static bool intake_is_due(struct intake *intake, const struct intake_desk *desk,
+static bool intake_is_due(struct intake *intake, const struct intake_context *context,
                           dds_instance_handle_t writer)
 {
     static const uint8_t anybody[16];
     const uint8_t *client, *server = intake_addressee(intake, &client);
     if (memcmp(server, anybody, sizeof anybody) != 0 &&
-        memcmp(server, desk->server, sizeof anybody) != 0)
+        memcmp(server, context->server, sizeof anybody) != 0)
         return false;
-    bool own = owners_allow_writer(desk->owners, client, intake->reader, writer);
+    bool own = authorisation_allow_writer(context->authorisation, client, intake->reader, writer);
     if (!own)
-        atomic_fetch_add(desk->strange, 1);
+        atomic_fetch_add(context->strange, 1);
     return own;
 }
 
@@ -137,47 +137,47 @@ static void intake_hand_on(const struct intake *intake, const struct endpoint_ha
 }
 
 /* Decodes a taken sample, hands it on if it is due here, and releases it. */
-static void intake_serve_one(struct intake *intake, const struct intake_desk *desk,
+static void intake_serve_one(struct intake *intake, const struct intake_context *context,
                              struct ddsi_serdata *taken, dds_instance_handle_t writer, bool alone)
 {
     if (ddsi_serdata_to_sample(taken, intake->sample, NULL, NULL) &&
-        intake_is_due(intake, desk, writer))
-        intake_hand_on(intake, desk->handler, alone);
+        intake_is_due(intake, context, writer))
+        intake_hand_on(intake, context->handler, alone);
     ddsi_serdata_unref(taken);
 }
 
 /* Takes the samples of the reader, up to a bound; true: more may be left. One that comes alone is
  * served at once. */
-static bool intake_take(struct intake *intake, const struct intake_desk *desk)
+static bool intake_take(struct intake *intake, const struct intake_context *context)
 {
     struct ddsi_serdata *taken[TAKEN_AT_ONCE];
     dds_sample_info_t infos[TAKEN_AT_ONCE];
     dds_return_t count = TAKEN_AT_ONCE;
     for (int all = 0; count == TAKEN_AT_ONCE && all < TAKEN_BEFORE; all += TAKEN_AT_ONCE) {
         count = dds_takecdr(intake->reader, taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
-        bool alone = count == 1 && inbox_is_empty(intake->inbox);
+        bool alone = count == 1 && writer_queues_is_empty(intake->queues);
         /* samples without data only tell that a client's writer has gone */
         for (dds_return_t i = 0; i < count; i++) {
             if (!infos[i].valid_data)
                 ddsi_serdata_unref(taken[i]);
             else if (alone)
-                intake_serve_one(intake, desk, taken[i], infos[i].publication_handle, true);
+                intake_serve_one(intake, context, taken[i], infos[i].publication_handle, true);
             else
-                inbox_put(intake->inbox, infos[i].publication_handle, taken[i]);
+                writer_queues_put(intake->queues, infos[i].publication_handle, taken[i]);
         }
     }
     return count == TAKEN_AT_ONCE;
 }
 
 /* Serves a few of the samples taken; true: some are left. */
-static bool intake_serve(struct intake *intake, const struct intake_desk *desk)
+static bool intake_serve(struct intake *intake, const struct intake_context *context)
 {
-    for (int i = 0; i < SERVED_AT_ONCE && !inbox_is_empty(intake->inbox); i++) {
+    for (int i = 0; i < SERVED_AT_ONCE && !writer_queues_is_empty(intake->queues); i++) {
         uint64_t writer;
-        struct ddsi_serdata *taken = inbox_take(intake->inbox, &writer);
-        intake_serve_one(intake, desk, taken, writer, false);
+        struct ddsi_serdata *taken = writer_queues_take(intake->queues, &writer);
+        intake_serve_one(intake, context, taken, writer, false);
     }
-    return !inbox_is_empty(intake->inbox);
+    return !writer_queues_is_empty(intake->queues);
 }
 
 /* The topic of specimens. Clients write volatile samples, which the readers of announcements do not
@@ -466,8 +466,9 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
 {
     bool ready[SOURCE_COUNT] = {false};
     bool left = false; /* requests are left, without a further wake-up */
-    struct intake_desk desk = {endpoint->server, reply_writers_owners(endpoint->writers),
-                               &endpoint->strange, handler};
+    struct intake_context context = {endpoint->server,
+                                     reply_writers_authorisation(endpoint->writers),
+                                     &endpoint->strange, handler};
     while (!atomic_load(&endpoint->stopped)) {
         /* sources with events, left from the last time or new */
         dds_attach_t woken[SOURCE_COUNT];
@@ -485,8 +486,8 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
         ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = ready[SOURCE_NUDGE] = left = false;
         /* then the requests, some of each kind */
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
-            ready[i] = ready[i] && intake_take(&endpoint->intakes[i], &desk);
-            left = intake_serve(&endpoint->intakes[i], &desk) || ready[i] || left;
+            ready[i] = ready[i] && intake_take(&endpoint->intakes[i], &context);
+            left = intake_serve(&endpoint->intakes[i], &context) || ready[i] || left;
         }
     }
 }

@@ -1,11 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests endpoint/destinations.c: a writer for each client and channel as long as somebody reads. */
+/* Tests the destinations of endpoint/reply_writers.c: a writer for each client and channel as long
+ * as a reader exists. */
 #include <string.h>
 
 #include "check.h"
-#include "endpoint/destinations.h"
+#include "endpoint/reply_writers.h"
 
 /* Writers are numbered as they are made. */
 static dds_entity_t number_writer(void *made, const uint8_t client[16], unsigned channel)
