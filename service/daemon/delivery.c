@@ -23,15 +23,15 @@ struct envelope delivery_envelope(const struct shared *shared, const struct requ
 static const char *const KINDS[EXCHANGE_COUNT] = {
     [EXCHANGE_SINGLE] = "request", [EXCHANGE_BATCH] = "batch", [EXCHANGE_ENSEMBLE] = "ensemble"};
 
-static void note_refusal(const struct request_name *name, enum percuss_status status,
-                         const char *message)
+static void delivery_note_refusal(const struct request_name *name, enum percuss_status status,
+                                  const char *message)
 {
     struct log_request about = {name->client, name->sequence};
     log_about(LEVEL_DEBUG, &about, "%s: %s: %s", KINDS[name->exchange], status_name(status),
               message);
 }
 
-static void note_answer(const struct request_name *name, const struct answer *answer)
+static void delivery_note_answer(const struct request_name *name, const struct answer *answer)
 {
     if (!log_shows(LEVEL_DEBUG))
         return;
@@ -49,8 +49,8 @@ static void note_answer(const struct request_name *name, const struct answer *an
                   1e3 * answer->reply->timing.queue, 1e3 * answer->reply->timing.solve);
 }
 
-static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
-                              enum percuss_status status, const char *message)
+static struct answer *delivery_refusal(const struct envelope *envelope, enum exchange exchange,
+                                       enum percuss_status status, const char *message)
 {
     if (exchange == EXCHANGE_BATCH)
         return encode_batch_refusal(envelope, status, message);
@@ -64,7 +64,7 @@ void deliver_at_once(struct shared *shared, const struct request_name *name,
 {
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
     struct envelope envelope = delivery_envelope(shared, name, snapshot);
-    struct answer *answer = refusal(&envelope, name->exchange, status, message);
+    struct answer *answer = delivery_refusal(&envelope, name->exchange, status, message);
     snapshots_release(&shared->snapshots, snapshot);
     if (!answer) {
         log_about(LEVEL_ERROR, &(struct log_request){name->client, name->sequence},
@@ -77,7 +77,7 @@ void deliver_at_once(struct shared *shared, const struct request_name *name,
         atomic_fetch_add(&shared->metrics.pings, 1);
         return;
     }
-    note_refusal(name, status, message);
+    delivery_note_refusal(name, status, message);
     atomic_fetch_add(&shared->refused, 1);
     metrics_count_refusal(&shared->metrics, name->exchange, status);
 }
@@ -96,7 +96,7 @@ void deliver_refusal(struct shared *shared, const struct request_name *name,
     deliver_at_once(shared, name, status, message);
 }
 
-static void count(struct shared *shared, const struct answer *answer)
+static void delivery_count(struct shared *shared, const struct answer *answer)
 {
     unsigned long long answered = 0, all = 1;
     if (answer->exchange == EXCHANGE_BATCH && answer->member_count > 0)
@@ -116,9 +116,9 @@ void deliver(struct shared *shared, const struct request_name *name, struct answ
         deliver_at_once(shared, name, PERCUSS_INTERNAL, "out of memory");
         return;
     }
-    count(shared, answer);
+    delivery_count(shared, answer);
     metrics_count(&shared->metrics, answer);
-    note_answer(name, answer);
+    delivery_note_answer(name, answer);
     /* stored first: a client that has the reply gets the same one when it asks again */
     if (answer->passing)
         reply_store_forget(shared->replies, name);

@@ -88,8 +88,8 @@ static void enqueue(struct shared *shared, const struct request_name *name, stru
 
 /* Answers a repeated request, and one that reuses the number of another. True: the request is new.
  */
-static bool admit(struct shared *shared, const struct request_name *name, struct digest content,
-                  double now)
+static bool dispatch_admit(struct shared *shared, const struct request_name *name,
+                           struct digest content, double now)
 {
     struct answer *stored;
     char message[160];
@@ -192,7 +192,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
 
 /* Its client does not wait for a request any more. One that is not in a queue was answered before.
  */
-static void withdraw(struct shared *shared, const struct request_name *name)
+static void dispatch_withdraw(struct shared *shared, const struct request_name *name)
 {
     struct job *withdrawn = NULL;
     bool found = false;
@@ -212,7 +212,7 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
     double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_SINGLE, request->sequence};
     if (request->cancel) {
-        withdraw(shared, &name);
+        dispatch_withdraw(shared, &name);
         return;
     }
     /* a ping */
@@ -221,7 +221,7 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
         return;
     }
     /* a repetition */
-    if (!admit(shared, &name, question_digest_single(request), arrival))
+    if (!dispatch_admit(shared, &name, question_digest_single(request), arrival))
         return;
     /* a solve that is given up here is begun anew by a worker, with the same bits */
     bool sole = is_sole(dispatch, request->client, arrival);
@@ -241,10 +241,11 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
                           : batch->requests._length == 0 ? "requests: none given: must be 1 to 256"
                                                          : NULL;
     if (batch->cancel)
-        withdraw(shared, &name);
+        dispatch_withdraw(shared, &name);
     else if (problem)
         deliver_at_once(shared, &name, PERCUSS_BAD_REQUEST, problem);
-    else if (admit(shared, &name, question_digest_batch(batch), arrival) && is_open(shared, &name))
+    else if (dispatch_admit(shared, &name, question_digest_batch(batch), arrival) &&
+             is_open(shared, &name))
         enqueue(shared, &name,
                 impact_job_create(shared, &name, batch->requests._buffer, batch->requests._length,
                                   arrival));
@@ -260,7 +261,7 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
     else if (request->sequence == 0)
         deliver_at_once(shared, &name, PERCUSS_BAD_REQUEST,
                         "sequence: 0: must be > 0 for an ensemble");
-    else if (admit(shared, &name, question_digest_ensemble(request), arrival) &&
+    else if (dispatch_admit(shared, &name, question_digest_ensemble(request), arrival) &&
              is_open(shared, &name))
         enqueue(shared, &name, ensemble_job_create(shared, &name, request, arrival));
 }

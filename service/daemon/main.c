@@ -262,8 +262,8 @@ static void look_at_place(const char *standby)
 }
 
 /* Until a signal asks for the end. */
-static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier,
-                  const char *standby)
+static void serve_until_signal(struct service *service, const sigset_t *signals,
+                               const struct notifier *notifier, const char *standby)
 {
     /* signs of life are sent more often than the manager expects them */
     double period = notifier->watchdog > 0.0 ? fmin(1.0, 0.25 * notifier->watchdog) : 1.0;
@@ -284,8 +284,9 @@ static void serve(struct service *service, const sigset_t *signals, const struct
     }
 }
 
-/* Answers the queued requests, for a bounded time or until the signal comes again. */
-static bool drain(struct service *service, const sigset_t *signals, double seconds,
+/* Answers the queued requests, for a bounded time or until the signal comes again. Ends the process
+ * where a thread still works after that, so that nothing can be taken apart. */
+static void drain(struct service *service, const sigset_t *signals, double seconds,
                   const struct notifier *notifier)
 {
     notify(notifier, "STOPPING=1\nEXTEND_TIMEOUT_USEC=%.0f", 1e6 * (seconds + END_SECONDS));
@@ -298,33 +299,45 @@ static bool drain(struct service *service, const sigset_t *signals, double secon
         if (!drained && (signal_number == SIGTERM || signal_number == SIGINT))
             break;
     }
-    return drained || service_cut_short(service);
+    drained = drained || service_cut_short(service);
+    log_sum_up(true);
+    if (drained)
+        return;
+    log_line(LEVEL_ERROR, "ends with requests unanswered");
+    _exit(EXIT_FAILURE);
 }
 
-static void *take_apart(void *service)
+static void *free_service(void *service)
 {
     service_free(service);
     return NULL;
 }
 
-/* Takes the service apart. False: it takes too long. Cyclone DDS ends its threads that receive by a
- * packet to its own address each, which never comes where the machine has lost that address. */
-static bool is_taken_apart(struct service *service)
+/* Takes the service apart; ends the process where that takes too long. Cyclone DDS ends its threads
+ * that receive by a packet to its own address each, which never comes where the machine has lost
+ * that address. */
+static void take_apart(struct service *service)
 {
     pthread_t thread;
     struct timespec end;
-    if (pthread_create(&thread, NULL, take_apart, service) != 0) {
+    if (pthread_create(&thread, NULL, free_service, service) != 0) {
         service_free(service);
-        return true;
+        return;
     }
     clock_gettime(CLOCK_MONOTONIC, &end);
     end.tv_sec += (time_t)APART_SECONDS;
-    return pthread_clockjoin_np(thread, NULL, CLOCK_MONOTONIC, &end) == 0;
+    if (pthread_clockjoin_np(thread, NULL, CLOCK_MONOTONIC, &end) == 0)
+        return;
+    log_line(LEVEL_ERROR,
+             "DDS does not end within %g s (has this machine lost its address?): "
+             "ends without it",
+             APART_SECONDS);
+    _exit(EXIT_FAILURE);
 }
 
 /* Reads settings and limits and opens the log. False: they are wrong, as stderr says. With
  * --check-config the limits and the log are left to that. */
-static bool prepare(struct arguments *arguments, struct settings *settings)
+static bool configure(struct arguments *arguments, struct settings *settings)
 {
     struct fault fault;
     bool check = arguments->check_config;
@@ -344,30 +357,6 @@ static bool prepare(struct arguments *arguments, struct settings *settings)
     return true;
 }
 
-/* Serves until a signal, then answers the queued requests and ends. An exit code. */
-static int live(struct service *service, const struct settings *settings, const sigset_t *signals,
-                struct notifier *notifier)
-{
-    serve(service, signals, notifier, settings->standby);
-    bool drained = drain(service, signals, settings->drain_seconds, notifier);
-    log_sum_up(true);
-    if (!drained) {
-        /* a thread still works, so nothing is taken apart */
-        log_line(LEVEL_ERROR, "ends with requests unanswered");
-        _exit(EXIT_FAILURE);
-    }
-    if (!is_taken_apart(service)) {
-        log_line(LEVEL_ERROR,
-                 "DDS does not end within %g s (has this machine lost its address?): "
-                 "ends without it",
-                 APART_SECONDS);
-        _exit(EXIT_FAILURE);
-    }
-    notifier_close(notifier);
-    log_line(LEVEL_INFO, "ended");
-    return EXIT_SUCCESS;
-}
-
 int main(int argc, char **argv)
 {
     struct arguments arguments = arguments_read(argc, argv);
@@ -377,7 +366,7 @@ int main(int argc, char **argv)
     /* a store alone, or the settings, which may be all that is to be checked */
     if (arguments.check_store)
         return specimen_lane_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
-    if (!prepare(&arguments, &settings))
+    if (!configure(&arguments, &settings))
         return EXIT_FAILURE;
     if (arguments.check_config)
         return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
@@ -398,5 +387,11 @@ int main(int argc, char **argv)
         log_line(LEVEL_ERROR, "%s", fault.text);
         return EXIT_FAILURE;
     }
-    return live(service, &settings, &signals, &notifier);
+    /* until a signal, then the queued requests, then the end */
+    serve_until_signal(service, &signals, &notifier, settings.standby);
+    drain(service, &signals, settings.drain_seconds, &notifier);
+    take_apart(service);
+    notifier_close(&notifier);
+    log_line(LEVEL_INFO, "ended");
+    return EXIT_SUCCESS;
 }

@@ -143,7 +143,7 @@ enum { REMEMBERED_CLIENTS = 4096 };
 static const double MEGABYTE = 1048576.0;
 
 /* The number of workers of a lane that one client may have at once. */
-static size_t share_of(const struct settings *settings, enum lane lane)
+static size_t lane_share(const struct settings *settings, enum lane lane)
 {
     return lane == LANE_LONG        ? settings->workers
            : lane == LANE_ENSEMBLES ? 1 /* it has threads of its own */
@@ -170,7 +170,7 @@ static bool create_stores(struct shared *shared)
     shared->replies = reply_store_create(&replies);
     bool good = shared->tokens && shared->replies;
     for (int lane = 0; lane < LANE_COUNT; lane++) {
-        shared->lanes[lane] = queue_create(settings->queue_capacity, share_of(settings, lane));
+        shared->lanes[lane] = queue_create(settings->queue_capacity, lane_share(settings, lane));
         good = good && shared->lanes[lane];
     }
     return table_cache_create(&shared->tables, settings, &table_log) && good;

@@ -26,25 +26,26 @@ static int held = -1;
 /* Between two tries to take the place: far below the lease of a killed daemon. */
 static const struct timespec TURN = {.tv_nsec = 50000000};
 
-static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
+static enum percuss_status standby_refuse(const char *path, const char *problem,
+                                          struct fault *fault)
 {
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%.400s: %s", path, problem);
 }
 
 /* The whole file is locked, now or not at all. The lock is the process's, so that a child which
  * outlives it does not keep it. */
-static enum percuss_status lock(int file, const char *path, struct fault *fault)
+static enum percuss_status standby_lock(int file, const char *path, struct fault *fault)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(file, F_SETLK, &whole) == 0)
         return PERCUSS_OK;
     if (errno == EACCES || errno == EAGAIN)
         return fault_set(fault, PERCUSS_BUSY, "%.400s: is held by another process", path);
-    return refuse(path, strerror(errno), fault);
+    return standby_refuse(path, strerror(errno), fault);
 }
 
 /* False: the line is no server id. */
-static bool parse(const char line[LINE_SIZE], uint8_t server[16])
+static bool standby_parse(const char line[LINE_SIZE], uint8_t server[16])
 {
     static const char digits[] = "0123456789abcdef";
     for (int i = 0; i < 32; i++) {
@@ -58,7 +59,8 @@ static bool parse(const char line[LINE_SIZE], uint8_t server[16])
 }
 
 /* A new id, on the disk before it is published. */
-static enum percuss_status draw(int file, const char *path, uint8_t server[16], struct fault *fault)
+static enum percuss_status standby_draw(int file, const char *path, uint8_t server[16],
+                                        struct fault *fault)
 {
     char line[LINE_SIZE + 1];
     if (getrandom(server, 16, 0) != 16)
@@ -68,32 +70,33 @@ static enum percuss_status draw(int file, const char *path, uint8_t server[16], 
     line[LINE_SIZE - 1] = '\n';
     if (pwrite(file, line, LINE_SIZE, 0) == LINE_SIZE && fsync(file) == 0)
         return PERCUSS_OK;
-    return refuse(path, "cannot be written", fault);
+    return standby_refuse(path, "cannot be written", fault);
 }
 
 /* The id in the file. */
-static enum percuss_status identify(int file, const char *path, uint8_t server[16],
-                                    struct fault *fault)
+static enum percuss_status standby_identify(int file, const char *path, uint8_t server[16],
+                                            struct fault *fault)
 {
     char line[LINE_SIZE + 1];
     ssize_t size = pread(file, line, sizeof line, 0);
     if (size < 0)
-        return refuse(path, "cannot be read", fault);
+        return standby_refuse(path, "cannot be read", fault);
     if (size == 0)
-        return draw(file, path, server, fault);
-    if (size == LINE_SIZE && parse(line, server))
+        return standby_draw(file, path, server, fault);
+    if (size == LINE_SIZE && standby_parse(line, server))
         return PERCUSS_OK;
-    return refuse(path, "must be empty or hold a server id of 32 hexadecimal digits", fault);
+    return standby_refuse(path, "must be empty or hold a server id of 32 hexadecimal digits",
+                          fault);
 }
 
 enum percuss_status standby_take(const char *path, uint8_t server[16], struct fault *fault)
 {
     int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0)
-        return refuse(path, strerror(errno), fault);
-    enum percuss_status status = lock(file, path, fault);
+        return standby_refuse(path, strerror(errno), fault);
+    enum percuss_status status = standby_lock(file, path, fault);
     if (!status)
-        status = identify(file, path, server, fault);
+        status = standby_identify(file, path, server, fault);
     /* a locked file stays open to the end of the process */
     if (status)
         close(file);
@@ -111,13 +114,14 @@ bool standby_is_held(const char *path)
 {
     struct fault fault;
     struct stat locked, named;
-    return held >= 0 && lock(held, path, &fault) == PERCUSS_OK && fstat(held, &locked) == 0 &&
-           stat(path, &named) == 0 && locked.st_dev == named.st_dev &&
+    return held >= 0 && standby_lock(held, path, &fault) == PERCUSS_OK &&
+           fstat(held, &locked) == 0 && stat(path, &named) == 0 && locked.st_dev == named.st_dev &&
            locked.st_ino == named.st_ino;
 }
 
 /* Whether the catalogue can be loaded: an error is logged now rather than when it takes over. */
-static enum percuss_status try_catalogue(const struct settings *settings, struct fault *fault)
+static enum percuss_status standby_try_catalogue(const struct settings *settings,
+                                                 struct fault *fault)
 {
     struct body_set *set;
     const char *folder = settings->bodies[0] ? settings->bodies : NULL;
@@ -128,13 +132,13 @@ static enum percuss_status try_catalogue(const struct settings *settings, struct
 }
 
 /* Until the next look at the place; false: a signal asks for the end. */
-static bool rest(const struct settings *settings, const sigset_t *signals)
+static bool standby_rest(const struct settings *settings, const sigset_t *signals)
 {
     struct fault fault;
     int signal_number = sigtimedwait(signals, NULL, &TURN);
     if (signal_number == SIGTERM || signal_number == SIGINT)
         return false;
-    if (signal_number == SIGHUP && try_catalogue(settings, &fault))
+    if (signal_number == SIGHUP && standby_try_catalogue(settings, &fault))
         log_line(LEVEL_ERROR, "standby: %s", fault.text);
     return true;
 }
@@ -149,12 +153,12 @@ enum standby_end standby_wait(const struct settings *settings, const sigset_t *s
         return status ? STANDBY_FAILED : STANDBY_TAKEN;
     /* check that it can take over, and tell the manager that it waits */
     log_line(LEVEL_INFO, "standby: %s: waits until it ends", fault->text);
-    if (try_catalogue(settings, fault))
+    if (standby_try_catalogue(settings, fault))
         return STANDBY_FAILED;
     notify(notifier, "READY=1\nSTATUS=standby: waits until the one that answers ends");
     /* until the place is free */
     while (status == PERCUSS_BUSY) {
-        if (!rest(settings, signals))
+        if (!standby_rest(settings, signals))
             return STANDBY_STOPPED;
         if (notifier->watchdog > 0.0 && clock_now() - told > 0.25 * notifier->watchdog) {
             notify(notifier, "WATCHDOG=1");

@@ -29,7 +29,7 @@ void *reply_bytes_write(const struct answer *answer, size_t *size)
 }
 
 /* Checks the bytes, turns them into this machine's order, and decodes them into a zeroed reply. */
-static bool decode(char *bytes, uint32_t size, percuss_v1_Reply *reply)
+static bool reply_bytes_decode(char *bytes, uint32_t size, percuss_v1_Reply *reply)
 {
     uint32_t used = 0;
     if (!wire_whole(percuss_v1_Reply_desc.m_ops, bytes, size, swapped) ||
@@ -60,7 +60,7 @@ struct answer *reply_bytes_read(const void *bytes, size_t size, bool *damaged)
         memset(answer->reply, 0, sizeof *answer->reply);
         /* about as much in memory as on the wire */
         answer->bytes += sizeof *answer->reply + size;
-        *damaged = !decode(copy, (uint32_t)size, answer->reply);
+        *damaged = !reply_bytes_decode(copy, (uint32_t)size, answer->reply);
     }
     free(copy);
     if (good && !*damaged)

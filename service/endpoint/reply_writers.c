@@ -345,7 +345,7 @@ static const struct {
     [CHANNEL_SAMPLES] = {WIRE_TOPIC_ENSEMBLE_SAMPLES, &percuss_v1_EnsembleSamples_desc},
 };
 
-static bool create_entities(struct reply_writers *writers, struct fault *fault)
+static bool reply_writers_open(struct reply_writers *writers, struct fault *fault)
 {
     for (int i = 0; i < CHANNEL_COUNT; i++) {
         writers->topics[i] =
@@ -387,7 +387,7 @@ struct reply_writers *reply_writers_create(dds_entity_t participant, const char 
     }
     writers->participant = participant;
     writers->partition = partition;
-    if (create_entities(writers, fault))
+    if (reply_writers_open(writers, fault))
         return writers;
     reply_writers_free(writers);
     return NULL;
@@ -472,7 +472,7 @@ static enum delivery delivery_of(struct reply_writers *writers, const uint8_t cl
     return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
 }
 
-static dds_return_t write_all(dds_entity_t writer, const struct answer *answer)
+static dds_return_t answer_write(dds_entity_t writer, const struct answer *answer)
 {
     if (answer->exchange == EXCHANGE_ENSEMBLE)
         return dds_write(writer, answer->report);
@@ -507,7 +507,7 @@ enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t c
         return delivery;
     if (answer->trace_count > 0)
         write_traces(writers, client, answer);
-    return delivery_of(writers, client, answer->exchange, write_all(writer, answer));
+    return delivery_of(writers, client, answer->exchange, answer_write(writer, answer));
 }
 
 enum delivery reply_writers_publish(struct reply_writers *writers, const uint8_t client[16],
