@@ -2,31 +2,45 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "model/ritz.h"
-#include "base/watch.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/polynomial.h"
-#include "model/ritz_parts.h"
-#include "numeric/dense.h"
+#include "base/watch.h"
+#include "model/boussinesq3.h"
+#include "model/ritz_basis.h"
+#include "model/vector.h"
 #include "numeric/linear.h"
+
+/* One class: its products, stiffness and modes. */
+struct ritz_class {
+    struct ritz_terms terms;
+    double *factor;   /* Cholesky's of the stiffness matrix with the rigid motions held */
+    size_t rigids;    /* rigid motions of the class */
+    double *rigid[3]; /* [count], orthonormal */
+    size_t modes;
+    double *omega, *vectors; /* [modes], [modes][count] */
+};
+
+struct ritz {
+    struct ritz_basis basis; /* of density 1: its volume is the mass */
+    double poisson;
+    struct ritz *free; /* of a held box: factors of the same polynomials with those that do not
+                        * vanish on its held faces */
+    struct ritz_class class[RITZ_CLASSES];
+    double highest; /* frequency up to which there are modes */
+    size_t count;
+    double *omega; /* [count] */
+    struct ritz_mode {
+        unsigned char class;
+        unsigned number;
+    } * mode; /* [count] */
+};
 
 /* Thinner boxes would take polynomials of higher degree than are numerically good. */
 static const double THINNEST = 1.0 / 200.0;
-/* Polynomials along a side: so many and so many more for each thickness in it. Of a plate of 10 the
- * flexibility in its middle is good to 0.002/(E h), of a cube to 2e-5/(E L). */
-static const double LEAST = 9.5, MORE = 1.6;
-/* Across a thin body, and along the shorter sides of a compact one. */
-enum { ACROSS = 6, ACROSS_THIN = 5, COMPACT = 11 };
-static const double THIN = 0.12;
-/* Where faces are held: so few along a long side, and of the most of a class so much, more where
- * both parities of x stand in one. */
-static const double LEAST_HELD = 9.0, MOST_HELD = 0.85, MOST_MIXED = 1.5;
-/* In classes of plates that stretch, which have longer waves. */
-static const double STRETCHED = 0.7;
 /* Polynomials beyond pi for each wave, until frequencies are good to 1e-3. */
 static const double SPARE = 3.0;
 
@@ -52,342 +66,28 @@ double ritz_highest(const struct ritz *ritz)
     return ritz->highest;
 }
 
-static int thinnest_axis(const double side[3])
-{
-    int thin = 0;
-    for (int d = 1; d < 3; d++)
-        thin = side[d] < side[thin] ? d : thin;
-    return thin;
-}
-
-/* Parity of a component's polynomials along an axis in a class. */
-static unsigned parity(int class, int component, int axis)
-{
-    return ((unsigned)class >> axis ^ (component == axis ? 1U : 0U)) & 1U;
-}
-
-/* Whether the class stretches a plate whose normal is `axis`: displacements along it are odd. */
-static bool stretches(int class, int axis)
-{
-    return parity(class, axis, axis) == 1;
-}
-
-/* Faces that are held. */
-static size_t holds(const struct ritz *ritz)
-{
-    return (size_t)ritz->held[0] + (size_t)ritz->held[1];
-}
-
-/* About how many coordinates a class has. */
-static double class_size(const struct ritz *ritz)
-{
-    double product = ritz->mixed ? 3.0 / 4.0 : 3.0 / 8.0;
-    int longs = 0;
-    for (int d = 0; d < 3; d++) {
-        product *= (double)ritz->orders[d];
-        longs += ritz->orders[d] > 2 * ACROSS;
-    }
-    return longs == 2 ? M_PI_4 * product : product;
-}
-
-/* Of a held box, which keeps the factors of a free one besides: of long sides a few more are taken
- * off, of the longest first. */
-static void save_orders(struct ritz *ritz)
-{
-    size_t *n = ritz->orders;
-    double most = (ritz->mixed ? MOST_MIXED : MOST_HELD) * RITZ_MOST_OF_CLASS;
-    while (class_size(ritz) > most) {
-        int longest = 0;
-        for (int d = 1; d < 3; d++)
-            longest = n[d] > n[longest] ? d : longest;
-        n[longest]--;
-    }
-}
-
-/* Polynomials along each side, which vanish on held faces. */
-static void choose_orders(struct ritz *ritz)
-{
-    int thin = thinnest_axis(ritz->side);
-    double least = ritz->side[thin];
-    double wanted[3], shrink = 1.0, longest = 0.0;
-    bool flat = true;
-    for (int d = 0; d < 3; d++) {
-        wanted[d] = LEAST + MORE * ritz->side[d] / least;
-        longest = fmax(longest, wanted[d]);
-        flat = flat && (d == thin || least < THIN * ritz->side[d]);
-    }
-    double across = longest <= 2.0 * ACROSS ? COMPACT : flat ? ACROSS_THIN : ACROSS;
-    for (int d = 0; d < 3; d++)
-        if (ritz->side[d] < 2.0 * least)
-            wanted[d] = fmin(wanted[d], across);
-    /* no more than can be afforded */
-    double of_class = (ritz->round ? 0.5 : 1.0) * 3.0 / 8.0 * wanted[0] * wanted[1] * wanted[2];
-    if (ritz->mixed)
-        of_class *= M_SQRT2;
-    if (of_class > RITZ_MOST_OF_CLASS) {
-        int longs = 0;
-        for (int d = 0; d < 3; d++)
-            longs += wanted[d] > 2.0 * ACROSS;
-        shrink = longs > 0 ? pow(RITZ_MOST_OF_CLASS / of_class, 1.0 / longs) : 1.0;
-    }
-    for (int d = 0; d < 3; d++) {
-        if (wanted[d] > 2.0 * ACROSS)
-            wanted[d] = fmax(wanted[d] * shrink, holds(ritz) ? LEAST_HELD : 2.0 * ACROSS);
-        ritz->orders[d] = (size_t)fmin(
-            ceil(wanted[d]), ritz->round && d > 0 ? POLYNOMIAL_MOST : RITZ_MOST_ORDERS - 2);
-    }
-    if (holds(ritz))
-        save_orders(ritz);
-}
-
-/* Whether a product of polynomials is taken: of long sides those within an ellipse. */
-static bool is_taken(const struct ritz *ritz, const double share, const unsigned order[3])
-{
-    double sum = 0.0;
-    for (int d = 0; d < 3; d++) {
-        size_t lifted = d == 0 ? ritz->lifted : 0, orders = ritz->orders[d] - lifted;
-        if (order[d] >= ritz->orders[d])
-            return false;
-        if (ritz->round && d > 0)
-            continue;
-        if (orders <= 2 * ACROSS)
-            continue;
-        double part = order[d] > lifted ? (double)(order[d] - lifted) : 0.0;
-        part /= share * (double)orders;
-        sum += part * part;
-    }
-    return sum < 1.0 && (!ritz->round || order[1] + order[2] < ritz->orders[1]);
-}
-
-static bool list_orders(struct ritz *ritz, int number)
-{
-    struct ritz_class *class = &ritz->class[number];
-    const size_t *n = ritz->orders;
-    size_t room = 3 * (n[0] + 1) * (n[1] + 1) * (n[2] + 1) / 4;
-    int thin = thinnest_axis(ritz->side);
-    bool plate = !(ritz->mixed && thin == 0), all = ritz->mixed && holds(ritz) == 1;
-    for (int d = 0; d < 3; d++)
-        plate = plate && (d == thin || n[d] - (d == 0 ? ritz->lifted : 0) > 2 * ACROSS);
-    double share = plate && stretches(number, thin) ? STRETCHED : 1.0;
-    /* where one face is held both parities of x stand in the classes of the even one */
-    if (all && (number & 1))
-        return true;
-    if (all)
-        room *= 2;
-    class->order = calloc(room, sizeof *class->order);
-    for (int c = 0; class->order && c < 3; c++) {
-        class->begin[c] = class->count;
-        for (unsigned p = all ? 0 : parity(number, c, 0); p < n[0]; p += all ? 1 : 2)
-            for (unsigned q = parity(number, c, 1); q < n[1]; q += 2)
-                for (unsigned r = parity(number, c, 2); r < n[2]; r += 2) {
-                    const unsigned order[3] = {p, q, r};
-                    if (!is_taken(ritz, share, order))
-                        continue;
-                    for (int d = 0; d < 3; d++)
-                        class->order[class->count][d] = (unsigned char)order[d];
-                    class->count++;
-                }
-    }
-    class->begin[3] = class->count;
-    return class->order != NULL;
-}
-
-/* Mean over [-1, 1] of P'_i P_j of normalised polynomials: 0 unless j < i and i - j is odd. */
-static double slope_mean(unsigned i, unsigned j)
-{
-    return j < i && (i - j) % 2 == 1 ? sqrt((2.0 * i + 1.0) * (2.0 * j + 1.0)) : 0.0;
-}
-
-/* And of P'_i P'_j. */
-static double slopes_mean(unsigned i, unsigned j)
-{
-    unsigned m = i < j ? i : j;
-    return (i - j) % 2 == 0 ? 0.5 * sqrt((2.0 * i + 1.0) * (2.0 * j + 1.0)) * m * (m + 1.0) : 0.0;
-}
-
-/* Means over a circle of radius 1 of Zernike's and their derivatives: [i][j] by pairs, see
- * section_mean. */
-enum { Y_NONE, Z_NONE, Y_Y, Z_Z, Y_Z, SECTION_MEANS };
-
-static size_t section_index(const unsigned char order[3])
-{
-    return (size_t)order[1] * POLYNOMIAL_MOST + order[2];
-}
-
-/* Of the derivative of one along c (0: none) and of the other along d. */
-static double section_mean(const struct ritz *ritz, const unsigned char a[3], int c,
-                           const unsigned char b[3], int d)
-{
-    size_t i = ritz->place[section_index(a)], j = ritz->place[section_index(b)];
-    if (c == 0 && d == 0)
-        return i == j ? 1.0 : 0.0;
-    double scale = 2.0 / ritz->side[1];
-    if (c == 0 || (c == 2 && d == 1)) { /* the other way round */
-        size_t k = i;
-        int e = c;
-        i = j;
-        j = k;
-        c = d;
-        d = e;
-    }
-    int which = d == 0 ? (c == 1 ? Y_NONE : Z_NONE) : c != d ? Y_Z : c == 1 ? Y_Y : Z_Z;
-    double mean = ritz->means[which][j * ritz->places + i];
-    return mean * (d == 0 ? scale : scale * scale);
-}
-
-/* Values and derivatives along y and z at the points of a rule, times the root of its weight:
- * [3][places][points]. */
-static void fill_rows(const struct ritz *ritz, size_t radii, size_t angles, double *rows)
-{
-    size_t n = ritz->orders[1], count = 0, points = radii * angles;
-    double x[POLYNOMIAL_MOST + 2], weight[POLYNOMIAL_MOST + 2];
-    double table[3][POLYNOMIAL_MOST * POLYNOMIAL_MOST];
-    polynomial_gauss(radii, x, weight);
-    for (size_t i = 0; i < radii; i++)
-        for (size_t j = 0; j < angles; j++, count++) {
-            double angle = 2.0 * M_PI * ((double)j + 0.5) / (double)angles;
-            double root = sqrt(2.0 * x[i] * weight[i] / (double)angles);
-            polynomial_zernike(n, x[i] * cos(angle), x[i] * sin(angle), table[0], table[1],
-                               table[2]);
-            for (size_t q = 0; q < n; q++)
-                for (size_t r = 0; q + r < n; r++)
-                    for (size_t d = 0; d < 3; d++) {
-                        size_t at = q * POLYNOMIAL_MOST + r;
-                        rows[(d * ritz->places + ritz->place[at]) * points + count] =
-                            root * table[d][at];
-                    }
-        }
-}
-
-/* By Gauss' rule in the radius and equal angles, which are exact. False: out of memory. */
-static bool make_section(struct ritz *ritz)
-{
-    static const size_t FIRST[SECTION_MEANS] = {1, 2, 1, 2, 1};
-    static const size_t SECOND[SECTION_MEANS] = {0, 0, 1, 2, 2};
-    size_t n = ritz->orders[1], angles = 2 * n + 2, radii = n + 2;
-    ritz->place = calloc(POLYNOMIAL_MOST * POLYNOMIAL_MOST, sizeof *ritz->place);
-    for (size_t q = 0; ritz->place && q < n; q++)
-        for (size_t r = 0; q + r < n; r++)
-            ritz->place[q * POLYNOMIAL_MOST + r] = ritz->places++;
-    size_t all = radii * angles * ritz->places;
-    double *rows = calloc(3 * all + 1, sizeof *rows);
-    bool good = ritz->place && rows;
-    if (good)
-        fill_rows(ritz, radii, angles, rows);
-    for (int k = 0; good && k < SECTION_MEANS; k++) {
-        const struct dense a = {radii * angles, ritz->places, rows + FIRST[k] * all};
-        const struct dense b = {radii * angles, ritz->places, rows + SECOND[k] * all};
-        ritz->means[k] = calloc(ritz->places * ritz->places, sizeof **ritz->means);
-        good = ritz->means[k] != NULL;
-        if (good)
-            dense_products(a, b, ritz->means[k]);
-    }
-    free(rows);
-    return good;
-}
-
-/* The means along x of polynomials that vanish on held faces, by Gauss' rule, which is exact:
- * line[0] of a derivative [i] and the other [j], line[1] of two. False: out of memory. */
-static bool make_lines(struct ritz *ritz)
-{
-    enum { POINTS = RITZ_MOST_ORDERS + 2 };
-    double x[POINTS], weight[POINTS], value[RITZ_MOST_ORDERS], slope[RITZ_MOST_ORDERS];
-    size_t n = ritz->orders[0], points = n + 2;
-    for (int k = 0; k < 2; k++)
-        ritz->line[k] = calloc(RITZ_MOST_ORDERS * RITZ_MOST_ORDERS, sizeof **ritz->line);
-    if (!ritz->line[0] || !ritz->line[1])
-        return false;
-    polynomial_gauss(points, x, weight);
-    for (size_t k = 0; k < points; k++) {
-        polynomial_held(n, ritz->held, 2.0 * x[k] - 1.0, value, slope);
-        for (size_t i = 0; i < n; i++)
-            for (size_t j = 0; j < n; j++) {
-                ritz->line[0][i * RITZ_MOST_ORDERS + j] += weight[k] * slope[i] * value[j];
-                ritz->line[1][i * RITZ_MOST_ORDERS + j] += weight[k] * slope[i] * slope[j];
-            }
-    }
-    return true;
-}
-
-/* Along an axis, over half its side: of a derivative and the other, and of two. */
-static double mean_slope(const struct ritz *ritz, int axis, unsigned i, unsigned j)
-{
-    bool held = axis == 0 && ritz->line[0];
-    return held ? ritz->line[0][i * RITZ_MOST_ORDERS + j] : slope_mean(i, j);
-}
-
-static double mean_slopes(const struct ritz *ritz, int axis, unsigned i, unsigned j)
-{
-    bool held = axis == 0 && ritz->line[1];
-    return held ? ritz->line[1][i * RITZ_MOST_ORDERS + j] : slopes_mean(i, j);
-}
-
-/* Mean over the body of the derivative of one product along axis c and of the other along d. */
-static double mean_of(const struct ritz *ritz, const unsigned char a[3], int c,
-                      const unsigned char b[3], int d)
-{
-    double product = 1.0;
-    for (int e = 0; e < (ritz->round ? 1 : 3) && product != 0.0; e++) {
-        double scale = 2.0 / ritz->side[e];
-        if (e == c && e == d)
-            product *= scale * scale * mean_slopes(ritz, e, a[e], b[e]);
-        else if (e == c)
-            product *= scale * mean_slope(ritz, e, a[e], b[e]);
-        else if (e == d)
-            product *= scale * mean_slope(ritz, e, b[e], a[e]);
-        else
-            product *= a[e] == b[e] ? 1.0 : 0.0;
-    }
-    return ritz->round && product != 0.0 ? product * section_mean(ritz, a, c, b, d) : product;
-}
-
-int ritz_component(const struct ritz_class *class, size_t i)
-{
-    return i < class->begin[1] ? 0 : i < class->begin[2] ? 1 : 2;
-}
-
-/* Lower triangle, by columns. */
-static void fill_stiffness(const struct ritz *ritz, const struct ritz_class *class, double *k)
-{
-    double poisson = ritz->poisson;
-    double lambda = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-    double mu = 0.5 / (1.0 + poisson);
-    size_t n = class->count;
-    for (size_t j = 0; j < n; j++) {
-        int d = ritz_component(class, j);
-        for (size_t i = j; i < n; i++) {
-            int c = ritz_component(class, i);
-            const unsigned char *a = class->order[i], *b = class->order[j];
-            double sum = lambda * mean_of(ritz, a, c, b, d) + mu * mean_of(ritz, a, d, b, c);
-            for (int e = 0; c == d && e < 3; e++)
-                sum += mu * mean_of(ritz, a, e, b, e);
-            k[j * n + i] = sum;
-        }
-    }
-}
-
 /* The coordinate of a component's polynomial of degree one along `axis` (-1: of none). */
 static size_t find_order(const struct ritz_class *class, int component, int axis)
 {
-    for (size_t i = class->begin[component]; i < class->begin[component + 1]; i++) {
-        const unsigned char *order = class->order[i];
+    for (size_t i = class->terms.begin[component]; i < class->terms.begin[component + 1]; i++) {
+        const unsigned char *order = class->terms.order[i];
         bool same = true;
         for (int d = 0; d < 3; d++)
             same = same && order[d] == (d == axis ? 1 : 0);
         if (same)
             return i;
     }
-    return class->count;
+    return class->terms.count;
 }
 
 static bool add_rigid(struct ritz_class *class, size_t i, double one, size_t j, double other)
 {
-    double *vector = calloc(class->count, sizeof *vector);
+    double *vector = calloc(class->terms.count, sizeof *vector);
     double norm = hypot(one, other);
     if (!vector)
         return false;
     vector[i] = one / norm;
-    if (j < class->count)
+    if (j < class->terms.count)
         vector[j] = other / norm;
     class->rigid[class->rigids++] = vector;
     return true;
@@ -397,20 +97,20 @@ static bool add_rigid(struct ritz_class *class, size_t i, double one, size_t j, 
  * side, 4 of a diameter. */
 static double spread(const struct ritz *ritz, int axis)
 {
-    return ritz->side[axis] * (ritz->round && axis > 0 ? sqrt(0.75) : 1.0);
+    return ritz->basis.side[axis] * (ritz->basis.round && axis > 0 ? sqrt(0.75) : 1.0);
 }
 
 /* Translations, and rotations u_b = -x_c, u_c = x_b. */
 static bool find_rigids(const struct ritz *ritz, struct ritz_class *class)
 {
     bool good = true;
-    for (int axis = 0; good && axis < 3 && holds(ritz) == 0; axis++) {
+    for (int axis = 0; good && axis < 3 && ritz_basis_holds(&ritz->basis) == 0; axis++) {
         int b = (axis + 1) % 3, c = (axis + 2) % 3;
         size_t along = find_order(class, axis, -1);
         size_t i = find_order(class, b, c), j = find_order(class, c, b);
-        if (along < class->count)
-            good = add_rigid(class, along, 1.0, class->count, 0.0);
-        if (good && i < class->count && j < class->count)
+        if (along < class->terms.count)
+            good = add_rigid(class, along, 1.0, class->terms.count, 0.0);
+        if (good && i < class->terms.count && j < class->terms.count)
             good = add_rigid(class, i, -spread(ritz, c), j, spread(ritz, b));
     }
     return good;
@@ -423,10 +123,10 @@ static double find_highest(const struct ritz *ritz)
 {
     double shear = sqrt(0.5 / (1.0 + ritz->poisson));
     double surface = shear * fmax((0.87 + 1.12 * ritz->poisson) / (1.0 + ritz->poisson), 0.69);
-    double least = INFINITY, thickness = ritz->side[thinnest_axis(ritz->side)];
+    double least = INFINITY, thickness = ritz->basis.side[ritz_basis_thinnest(&ritz->basis)];
     double bending = thickness / sqrt(12.0 * (1.0 - ritz->poisson * ritz->poisson));
     for (int d = 0; d < 3; d++) {
-        double k = 2.0 * ((double)ritz->orders[d] - SPARE) / ritz->side[d];
+        double k = 2.0 * ((double)ritz->basis.orders[d] - SPARE) / ritz->basis.side[d];
         double slow = 1.0 / (bending * k * k), quick = 1.0 / (surface * k);
         least = fmin(least, 1.0 / hypot(slow, quick));
     }
@@ -436,7 +136,7 @@ static double find_highest(const struct ritz *ritz)
 /* The lower triangle with the rigid motions held, which leaves what they are not as it is. */
 static void hold_rigids(const struct ritz_class *class, const double *k, double *held)
 {
-    size_t n = class->count;
+    size_t n = class->terms.count;
     for (size_t j = 0, at = 0; j < n; j++)
         for (size_t i = j; i < n; i++) {
             double sum = k[j * n + i];
@@ -449,7 +149,7 @@ static void hold_rigids(const struct ritz_class *class, const double *k, double 
 /* The lowest modes of a class, and the factor. */
 static bool solve_class(const struct ritz *ritz, struct ritz_class *class, double top)
 {
-    size_t n = class->count, found = SIZE_MAX;
+    size_t n = class->terms.count, found = SIZE_MAX;
     if (n == 0)
         return true;
     double *k = calloc(n * n, sizeof *k);
@@ -457,10 +157,12 @@ static bool solve_class(const struct ritz *ritz, struct ritz_class *class, doubl
     class->omega = calloc(n, sizeof *class->omega);
     class->factor = calloc(n * (n + 1) / 2, sizeof *class->factor);
     if (k && vectors && class->omega && class->factor && find_rigids(ritz, class)) {
-        fill_stiffness(ritz, class, k);
+        ritz_basis_stiffness(&ritz->basis, &class->terms, ritz->poisson, k);
         hold_rigids(class, k, class->factor);
         /* above the rigid motions' rounding, below the lowest bending */
-        double bottom = holds(ritz) ? 0.0 : 0.5 * ritz->side[thinnest_axis(ritz->side)];
+        double bottom = ritz_basis_holds(&ritz->basis)
+                            ? 0.0
+                            : 0.5 * ritz->basis.side[ritz_basis_thinnest(&ritz->basis)];
         bool factored = linear_packed_factor(n, class->factor);
         if (factored && top <= bottom)
             found = 0;
@@ -504,20 +206,11 @@ static bool merge(struct ritz *ritz)
 /* Its polynomials are chosen, and the frequency up to which modes are wanted. */
 static bool solve(struct ritz *ritz, struct pace *pace)
 {
-    bool good = !ritz->round || make_section(ritz);
-    if (holds(ritz))
-        good = make_lines(ritz);
+    bool good = ritz_basis_prepare(&ritz->basis);
     for (int c = 0; good && c < RITZ_CLASSES; c++)
-        good = pace_ask(pace, 0.0) && list_orders(ritz, c) &&
+        good = pace_ask(pace, 0.0) && ritz_basis_list(&ritz->basis, c, &ritz->class[c].terms) &&
                solve_class(ritz, &ritz->class[c], ritz -> highest);
-    for (int k = 0; k < SECTION_MEANS; k++) {
-        free(ritz->means[k]);
-        ritz->means[k] = NULL;
-    }
-    for (int k = 0; k < 2; k++) {
-        free(ritz->line[k]);
-        ritz->line[k] = NULL;
-    }
+    ritz_basis_drop_means(&ritz->basis);
     return good && merge(ritz);
 }
 
@@ -530,12 +223,12 @@ static bool make_free(struct ritz *ritz, struct pace *pace)
         return false;
     ritz->free = made;
     made->poisson = ritz->poisson;
-    made->mass = ritz->mass;
-    made->mixed = ritz->mixed;
-    made->lifted = holds(ritz);
-    memcpy(made->side, ritz->side, sizeof made->side);
-    memcpy(made->orders, ritz->orders, sizeof made->orders);
-    made->orders[0] += made->lifted;
+    made->basis.volume = ritz->basis.volume;
+    made->basis.mixed = ritz->basis.mixed;
+    made->basis.lifted = ritz_basis_holds(&ritz->basis);
+    memcpy(made->basis.side, ritz->basis.side, sizeof made->basis.side);
+    memcpy(made->basis.orders, ritz->basis.orders, sizeof made->basis.orders);
+    made->basis.orders[0] += made->basis.lifted;
     return solve(made, pace);
 }
 
@@ -546,18 +239,18 @@ struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct 
     double longest = fmax(side[0], fmax(side[1], side[2]));
     if (!ritz)
         return NULL;
-    ritz->round = shape->round;
-    memcpy(ritz->held, shape->held, sizeof ritz->held);
-    ritz->mixed = holds(ritz) == 1;
+    ritz->basis.round = shape->round;
+    memcpy(ritz->basis.held, shape->held, sizeof ritz->basis.held);
+    ritz->basis.mixed = ritz_basis_holds(&ritz->basis) == 1;
     ritz->poisson = poisson;
-    ritz->mass = shape->round ? 0.25 * M_PI : 1.0;
+    ritz->basis.volume = shape->round ? 0.25 * M_PI : 1.0;
     for (int d = 0; d < 3; d++) {
-        ritz->side[d] = side[d] / longest;
-        ritz->mass *= ritz->side[d];
+        ritz->basis.side[d] = side[d] / longest;
+        ritz->basis.volume *= ritz->basis.side[d];
     }
-    choose_orders(ritz);
+    ritz_basis_choose_orders(&ritz->basis);
     ritz->highest = find_highest(ritz);
-    if (solve(ritz, pace) && (holds(ritz) == 0 || make_free(ritz, pace)))
+    if (solve(ritz, pace) && (ritz_basis_holds(&ritz->basis) == 0 || make_free(ritz, pace)))
         return ritz;
     ritz_free(ritz);
     return NULL;
@@ -567,7 +260,7 @@ size_t ritz_size(const struct ritz *ritz)
 {
     size_t numbers = 0;
     for (int c = 0; c < RITZ_CLASSES; c++) {
-        size_t n = ritz->class[c].count;
+        size_t n = ritz->class[c].terms.count;
         numbers += n * (n + 1) / 2 + n * ritz->class[c].modes;
     }
     return numbers * sizeof(double) + (ritz->free ? ritz_size(ritz->free) : 0);
@@ -579,50 +272,18 @@ void ritz_free(struct ritz *ritz)
         struct ritz_class *class = &ritz->class[c];
         for (size_t r = 0; r < class->rigids; r++)
             free(class->rigid[r]);
-        free(class->order);
+        free(class->terms.order);
         free(class->factor);
         free(class->omega);
         free(class->vectors);
     }
     if (ritz) {
         ritz_free(ritz->free);
-        for (int k = 0; k < SECTION_MEANS; k++)
-            free(ritz->means[k]);
-        for (int k = 0; k < 2; k++)
-            free(ritz->line[k]);
-        free(ritz->place);
+        ritz_basis_clear(&ritz->basis);
         free(ritz->omega);
         free(ritz->mode);
     }
     free(ritz);
-}
-
-void ritz_functions_fill(const struct ritz *ritz, const double point[3], struct ritz_functions *at)
-{
-    for (int d = 0; d < (ritz->round ? 1 : 3); d++)
-        if (d == 0 && holds(ritz))
-            polynomial_held(ritz->orders[0], ritz->held, 2.0 * point[0] / ritz->side[0],
-                            at->along[0], NULL);
-        else
-            polynomial_legendre(ritz->orders[d], 2.0 * point[d] / ritz->side[d], at->along[d]);
-    if (ritz->round)
-        polynomial_zernike(ritz->orders[1], 2.0 * point[1] / ritz->side[1],
-                           2.0 * point[2] / ritz->side[2], at->section, NULL, NULL);
-}
-
-/* A class' coordinates there, along a direction. */
-void ritz_functions_of_class(const struct ritz *ritz, const struct ritz_class *class,
-                             const struct ritz_functions *at, const double direction[3],
-                             double *functions)
-{
-    double scale = 1.0 / sqrt(ritz->mass);
-    for (size_t i = 0; i < class->count; i++) {
-        const unsigned char *order = class->order[i];
-        double across = ritz->round ? at->section[section_index(order)]
-                                    : at->along[1][order[1]] * at->along[2][order[2]];
-        functions[i] =
-            scale * direction[ritz_component(class, i)] * at->along[0][order[0]] * across;
-    }
 }
 
 void ritz_shapes(const struct ritz *ritz, const double point[3], const double direction[3],
@@ -631,7 +292,7 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
     enum { LARGEST = 4 * RITZ_MOST_OF_CLASS };
     double functions[LARGEST];
     struct ritz_functions at;
-    ritz_functions_fill(ritz, point, &at);
+    ritz_functions_fill(&ritz->basis, point, &at);
     for (int c = 0; c < RITZ_CLASSES; c++) {
         const struct ritz_class *class = &ritz->class[c];
         bool filled = false;
@@ -640,13 +301,503 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
             if (mode->class != c)
                 continue;
             if (!filled)
-                ritz_functions_of_class(ritz, class, &at, direction, functions);
+                ritz_functions_along(&ritz->basis, &class->terms, &at, direction, functions);
             filled = true;
-            const double *vector = class->vectors + mode->number * class->count;
+            const double *vector = class->vectors + mode->number * class->terms.count;
             double sum = 0.0;
-            for (size_t i = 0; i < class->count; i++)
+            for (size_t i = 0; i < class->terms.count; i++)
                 sum += vector[i] * functions[i];
             row[k] = sum;
         }
     }
+}
+
+/* Flexibility: the half-space under the load, and what the other faces change of it. */
+
+/* Gauss' rule of six points on panels that grow away from a place. */
+enum { GAUSS = 6, MOST_PANELS = 40, MOST_POINTS = GAUSS * MOST_PANELS };
+static const double GROWTH = 2.2;
+static const double GAUSS_POINT[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+static const double GAUSS_WEIGHT[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+
+struct rule {
+    size_t count;
+    double x[MOST_POINTS], weight[MOST_POINTS];
+};
+
+static void add_panel(struct rule *rule, double from, double to)
+{
+    double half = 0.5 * (to - from);
+    if (!(half > 0.0) || rule->count + GAUSS > MOST_POINTS)
+        return;
+    for (int i = 0; i < GAUSS; i++) {
+        int k = i < 3 ? 2 - i : i - 3;
+        rule->x[rule->count] = 0.5 * (from + to) + (i < 3 ? -half : half) * GAUSS_POINT[k];
+        rule->weight[rule->count++] = half * GAUSS_WEIGHT[k];
+    }
+}
+
+/* Over [-half, half], fine at `place` for what varies over `scale`. */
+static void make_rule(double half, double place, double scale, struct rule *rule)
+{
+    rule->count = 0;
+    scale = fmax(scale, 1e-3 * half);
+    for (int side = -1; side <= 1; side += 2) {
+        double way = half - side * place, from = 0.0;
+        for (double to = scale; from < way; to *= GROWTH) {
+            double end = to * GROWTH > way ? way : to;
+            add_panel(rule, place + side * (side > 0 ? from : end),
+                      place + side * (side > 0 ? end : from));
+            from = end;
+        }
+    }
+}
+
+/* A unit force along the inward normal of a face, and what is summed up over the other five. */
+struct push {
+    const struct ritz *ritz;
+    int axis, side; /* the face */
+    struct boussinesq3 load;
+    bool inside;      /* of the cut: what is summed up is not the surface */
+    double surface;   /* of the half-space's traction times its displacement */
+    double motion[3]; /* of the half-space's field times the density, along the outward normal and
+                       * in the two rotations that the force takes part in */
+    double *force;    /* [component][order along x][y][z]: minus its traction on the products */
+};
+
+/* A field in equilibrium with minus the inertia of a rigid motion that leaves the loaded face free
+ * and moves the loaded point not: it turns the integral of the half-space's field over the body
+ * into ones over the other faces (Betti). Coordinates: x along `other`, z along the outward normal
+ * from the middle; other = the axis itself: along the normal. */
+static void reciprocal(const struct push *push, int other, const double at[3], double u[3],
+                       double stress[6])
+{
+    const struct ritz *ritz = push->ritz;
+    double poisson = ritz->poisson, mu = 0.5 / (1.0 + poisson);
+    double lambda = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), stiff = lambda + 2.0 * mu;
+    double top = 0.5 * ritz->basis.side[push->axis], z = push->side * at[push->axis],
+           below = z - top;
+    double normal[3] = {0.0}, full[3][3] = {{0.0}};
+    int n = push->axis;
+    memset(u, 0, 3 * sizeof *u);
+    normal[n] = push->side;
+    if (other == n) {
+        /* u_z'' = -1/stiff */
+        double slope = -below / stiff;
+        u[n] = -0.5 * below * below / stiff * normal[n];
+        for (int i = 0; i < 3; i++)
+            full[i][i] = (i == n ? stiff : lambda) * slope;
+    } else {
+        /* of the rotation (z, -x): u_z = x q(z), u_x = r(z) */
+        double x = at[other], kappa = (lambda + mu) / stiff;
+        double q = 0.5 * below * below / stiff, slope = below / stiff;
+        double turn = -(0.5 * (z * z - top * top) + 0.5 * kappa * below * below) / mu;
+        double r =
+            -((z * z * z / 3.0 - top * top * z) / 2.0 + kappa * below * below * below / 6.0) / mu;
+        u[n] = x * q * normal[n];
+        u[other] = r;
+        for (int i = 0; i < 3; i++)
+            full[i][i] = (i == n ? stiff : lambda) * x * slope;
+        full[n][other] = full[other][n] = mu * (q + turn) * normal[n];
+    }
+    for (int i = 0; i < 3; i++)
+        stress[i] = full[i][i];
+    stress[3] = full[0][1];
+    stress[4] = full[1][2];
+    stress[5] = full[2][0];
+}
+
+/* What one point of a face adds to the sums: the traction, weighted. */
+static void add_point(struct push *push, const double at[3], const double outward[3], double weight,
+                      double traction[3])
+{
+    double u[3], stress[6];
+    boussinesq3_field(&push->load, at, u, stress);
+    boussinesq3_traction(stress, outward, traction);
+    push->surface += push->inside ? 0.0 : weight * dot3(traction, u);
+    for (int i = 0; i < 3; i++) {
+        double field[3], pulled[3];
+        int other = (push->axis + i) % 3;
+        reciprocal(push, other, at, field, stress);
+        boussinesq3_traction(stress, outward, pulled);
+        push->motion[i] += weight * (dot3(traction, field) - dot3(pulled, u));
+    }
+    scale3(weight, traction, traction);
+}
+
+/* One face, its sums with all products. `rows`: [3][RITZ_MOST_ORDERS] of one line of points. */
+static bool add_face(struct push *push, int axis, int side)
+{
+    const struct ritz *ritz = push->ritz;
+    int across = (axis + 1) % 3, along = (axis + 2) % 3;
+    const double *half = ritz->basis.side, *place = push->load.point;
+    double distance = fabs(0.5 * side * half[axis] - place[axis]);
+    size_t n[3] = {ritz->basis.orders[axis], ritz->basis.orders[across], ritz->basis.orders[along]};
+    struct rule *rules = calloc(2, sizeof *rules);
+    double *products = calloc(3 * RITZ_MOST_ORDERS * RITZ_MOST_ORDERS, sizeof *products);
+    if (rules && products) {
+        make_rule(0.5 * half[across], place[across], distance, &rules[0]);
+        make_rule(0.5 * half[along], place[along], distance, &rules[1]);
+    }
+    double at[3], outward[3] = {0.0}, traction[3], table[RITZ_MOST_ORDERS];
+    outward[axis] = side;
+    at[axis] = 0.5 * side * half[axis];
+    for (size_t i = 0; rules && products && i < rules[0].count; i++) {
+        double line[3][RITZ_MOST_ORDERS] = {{0.0}};
+        at[across] = rules[0].x[i];
+        /* along one line, then across */
+        for (size_t j = 0; j < rules[1].count; j++) {
+            at[along] = rules[1].x[j];
+            add_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j], traction);
+            polynomial_legendre(n[2], 2.0 * at[along] / half[along], table);
+            for (int c = 0; c < 3; c++)
+                for (size_t q = 0; q < n[2]; q++)
+                    line[c][q] += traction[c] * table[q];
+        }
+        polynomial_legendre(n[1], 2.0 * at[across] / half[across], table);
+        for (int c = 0; c < 3; c++)
+            for (size_t p = 0; p < n[1]; p++)
+                for (size_t q = 0; q < n[2]; q++)
+                    products[(c * RITZ_MOST_ORDERS + p) * RITZ_MOST_ORDERS + q] +=
+                        table[p] * line[c][q];
+    }
+    /* times those of the face's own place */
+    polynomial_legendre(n[0], side, table);
+    double scale = -1.0 / sqrt(ritz->basis.volume);
+    size_t order[3];
+    const size_t *all = ritz->basis.orders;
+    for (int c = 0; rules && products && c < 3; c++)
+        for (order[0] = 0; order[0] < all[0]; order[0]++)
+            for (order[1] = 0; order[1] < all[1]; order[1]++)
+                for (order[2] = 0; order[2] < all[2]; order[2]++)
+                    push->force[((c * all[0] + order[0]) * all[1] + order[1]) * all[2] +
+                                order[2]] +=
+                        scale * table[order[axis]] *
+                        products[(c * RITZ_MOST_ORDERS + order[across]) * RITZ_MOST_ORDERS +
+                                 order[along]];
+    bool good = rules && products;
+    free(rules);
+    free(products);
+    return good;
+}
+
+/* A point of a cylinder's surface, with all products. */
+static void add_round_point(struct push *push, const double at[3], const double outward[3],
+                            double weight)
+{
+    const struct ritz *ritz = push->ritz;
+    const size_t *all = ritz->basis.orders;
+    struct ritz_functions functions;
+    double traction[3], scale = -1.0 / sqrt(ritz->basis.volume);
+    add_point(push, at, outward, weight, traction);
+    ritz_functions_fill(&ritz->basis, at, &functions);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t p = 0; p < all[0]; p++) {
+            double line = scale * traction[c] * functions.along[0][p];
+            for (size_t q = 0; q < all[1]; q++)
+                for (size_t r = 0; q + r < all[1]; r++)
+                    push->force[((c * all[0] + p) * all[1] + q) * all[2] + r] +=
+                        line * functions.section[q * POLYNOMIAL_MOST + r];
+        }
+}
+
+/* Radii from 0 on, fine for what varies over `scale`, with an end of a panel at `cut`. */
+static void make_radii(double most, double scale, double cut, struct rule *rule)
+{
+    double from = 0.0;
+    rule->count = 0;
+    if (cut > 0.0 && cut < most) {
+        add_panel(rule, 0.0, cut);
+        from = cut;
+        scale = GROWTH * cut;
+    }
+    for (double to = fmax(scale, 1e-3 * most); from < most; to *= GROWTH) {
+        double end = to * GROWTH > most ? most : to;
+        add_panel(rule, from, end);
+        from = end;
+    }
+}
+
+/* The end face at side * length / 2, in polar coordinates about the foot of the load's point. */
+static void add_end(struct push *push, int side, struct rule rules[2])
+{
+    const double *place = push->load.point;
+    double radius = 0.5 * push->ritz->basis.side[1], x = 0.5 * side * push->ritz->basis.side[0];
+    double own = atan2(place[2], place[1]), square = place[1] * place[1] + place[2] * place[2];
+    const double outward[3] = {side, 0.0, 0.0};
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        add_panel(&rules[0], own + 0.25 * M_PI * i, own + 0.25 * M_PI * (i + 1));
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double y = cos(rules[0].x[i]), z = sin(rules[0].x[i]), along = place[1] * y + place[2] * z;
+        double most = sqrt(fmax(along * along + radius * radius - square, 0.0)) - along;
+        make_radii(most, fabs(x - place[0]), 0.0, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j];
+            const double at[3] = {x, place[1] + r * y, place[2] + r * z};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+}
+
+/* The side, of a load on an end. */
+static void add_other_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    const double *place = push->load.point;
+    double radius = 0.5 * ritz->basis.side[1], own = atan2(place[2], place[1]);
+    double distance = radius - hypot(place[1], place[2]);
+    make_rule(0.5 * ritz->basis.side[0], place[0], distance, &rules[0]);
+    make_rule(M_PI, 0.0, distance / radius, &rules[1]);
+    for (size_t i = 0; i < rules[0].count; i++)
+        for (size_t j = 0; j < rules[1].count; j++) {
+            const double outward[3] = {0.0, cos(own + rules[1].x[j]), sin(own + rules[1].x[j])};
+            const double at[3] = {rules[0].x[i], radius * outward[1], radius * outward[2]};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * radius);
+        }
+}
+
+/* The side that the load acts on, rolled out, in polar coordinates about its point, which has z =
+ * 0: angles between the corners, radii with an end at the cut. */
+static void add_own_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    double radius = 0.5 * ritz->basis.side[1], half = M_PI * radius, x0 = push->load.point[0];
+    double ahead = 0.5 * ritz->basis.side[0] - x0, behind = 0.5 * ritz->basis.side[0] + x0;
+    const double corner[9] = {
+        0.0,       atan2(half, ahead),         0.5 * M_PI, M_PI - atan2(half, behind),
+        M_PI,      M_PI + atan2(half, behind), 1.5 * M_PI, 2.0 * M_PI - atan2(half, ahead),
+        2.0 * M_PI};
+    double cut = RITZ_CUT * ritz->basis.side[1];
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        for (int part = 0; part < 2; part++) {
+            double middle = 0.5 * (corner[i] + corner[i + 1]);
+            add_panel(&rules[0], part ? middle : corner[i], part ? corner[i + 1] : middle);
+        }
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double x = cos(rules[0].x[i]), s = sin(rules[0].x[i]);
+        double most = fmin((x > 0.0 ? ahead : behind) / fabs(x), half / fabs(s));
+        make_radii(most, radius, cut, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j], angle = r * s / radius;
+            const double outward[3] = {0.0, cos(angle), sin(angle)};
+            const double at[3] = {x0 + r * x, radius * outward[1], radius * outward[2]};
+            push->inside = r < cut;
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+    push->inside = false;
+}
+
+/* All but an end's own face. */
+static bool add_round(struct push *push, bool on_side)
+{
+    struct rule *rules = calloc(2, sizeof *rules);
+    if (!rules)
+        return false;
+    for (int side = -1; side <= 1; side += 2)
+        if (on_side || side != push->side)
+            add_end(push, side, rules);
+    if (on_side)
+        add_own_side(push, rules);
+    else
+        add_other_side(push, rules);
+    free(rules);
+    return true;
+}
+
+/* The forces on a class' coordinates. */
+static void gather(const struct push *push, const struct ritz_class *class, double *f)
+{
+    const size_t *all = push->ritz->basis.orders;
+    for (size_t i = 0; i < class->terms.count; i++) {
+        const unsigned char *order = class->terms.order[i];
+        size_t c = (size_t)ritz_component(&class->terms, i);
+        f[i] = push->force[((c * all[0] + order[0]) * all[1] + order[1]) * all[2] + order[2]];
+    }
+}
+
+/* f K^-1 f of a class, without its rigid motions. Room for as much again behind f. */
+static double energy_of(const struct ritz_class *class, double *f)
+{
+    size_t n = class->terms.count;
+    double *solved = f + n, sum = 0.0;
+    if (n == 0)
+        return 0.0;
+    for (size_t r = 0; r < class->rigids; r++) {
+        double part = 0.0;
+        for (size_t i = 0; i < n; i++)
+            part += class->rigid[r][i] * f[i];
+        for (size_t i = 0; i < n; i++)
+            f[i] -= part * class->rigid[r][i];
+    }
+    memcpy(solved, f, n * sizeof *f);
+    linear_packed_solve(n, class->factor, solved);
+    for (size_t i = 0; i < n; i++)
+        sum += f[i] * solved[i];
+    return sum;
+}
+
+/* Mean square of a coordinate. */
+static double mean_square(const struct ritz *ritz, int axis)
+{
+    return ritz->basis.side[axis] * ritz->basis.side[axis] /
+           (ritz->basis.round && axis > 0 ? 16.0 : 12.0);
+}
+
+/* Where and how the load acts; of a cylinder's side turned to z = 0. */
+static void place_load(struct push *push, int axis, const double point[3])
+{
+    const struct ritz *ritz = push->ritz;
+    push->load = (struct boussinesq3){.young = 1.0, .poisson = ritz->poisson, .reach = INFINITY};
+    push->load.inward[push->axis] = -push->side;
+    double *at = push->load.point;
+    memcpy(at, point, sizeof push->load.point);
+    at[push->axis] = 0.5 * push->side * ritz->basis.side[push->axis];
+    if (axis == RITZ_ROUND)
+        at[2] = 0.0;
+    /* a rim is as good as the edge */
+    double off = hypot(at[1], at[2]), most = 0.5 * ritz->basis.side[1];
+    if (ritz->basis.round && axis == 0 && off > most) {
+        at[1] *= most / off;
+        at[2] *= most / off;
+    }
+}
+
+static double *make_room(const struct ritz *ritz)
+{
+    size_t largest = 0;
+    for (int c = 0; c < RITZ_CLASSES; c++)
+        largest = ritz->class[c].terms.count > largest ? ritz->class[c].terms.count : largest;
+    return calloc(2 * largest + 1, sizeof(double));
+}
+
+/* As of meshes: f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions. */
+static double of_free(const struct ritz *ritz, int axis, int side, const double point[3])
+{
+    const size_t *n = ritz->basis.orders;
+    bool on_side = axis == RITZ_ROUND;
+    struct push push = {.ritz = ritz, .axis = on_side ? 1 : axis, .side = on_side ? 1 : side};
+    place_load(&push, axis, point);
+    /* the other faces */
+    push.force = calloc(3 * n[0] * n[1] * n[2], sizeof *push.force);
+    bool good = push.force != NULL;
+    for (int face = 0; good && !ritz->basis.round && face < 6; face++)
+        if (face / 2 != axis || (face % 2 ? 1 : -1) != side)
+            good = add_face(&push, face / 2, face % 2 ? 1 : -1);
+    if (good && ritz->basis.round)
+        good = add_round(&push, on_side);
+    /* rigid motions: the force is -1 along the outward normal z, x along it in the rotation */
+    double sum = -push.surface + 2.0 * push.motion[0] / ritz->basis.volume;
+    for (int i = 1; i < 3; i++) {
+        int other = (push.axis + i) % 3;
+        double inertia =
+            ritz->basis.volume * (mean_square(ritz, other) + mean_square(ritz, push.axis));
+        sum -= 2.0 * push.load.point[other] * push.motion[i] / inertia;
+    }
+    /* and the elastic ones */
+    double *f = make_room(ritz);
+    for (int c = 0; good && f && c < RITZ_CLASSES; c++) {
+        gather(&push, &ritz->class[c], f);
+        sum += energy_of(&ritz->class[c], f);
+    }
+    good = good && f;
+    free(push.force);
+    free(f);
+    return good ? sum : NAN;
+}
+
+/* To a force at the point by the polynomials alone: it grows with their number, as of any that
+ * resolve as much there. */
+static double by_polynomials(const struct ritz *ritz, const struct boussinesq3 *load)
+{
+    struct ritz_functions functions;
+    double *f = make_room(ritz), sum = 0.0;
+    ritz_functions_fill(&ritz->basis, load->point, &functions);
+    for (int c = 0; f && c < RITZ_CLASSES; c++) {
+        ritz_functions_along(&ritz->basis, &ritz->class[c].terms, &functions, load->inward, f);
+        sum += energy_of(&ritz->class[c], f);
+    }
+    free(f);
+    return f ? sum : NAN;
+}
+
+/* Of a held box: that of the free one, and what holding it changes, which is smooth away from the
+ * held face: from polynomials that are all of the free one's that vanish there. */
+double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3])
+{
+    if (!ritz->free)
+        return of_free(ritz, axis, side, point);
+    struct push push = {.ritz = ritz, .axis = axis, .side = side};
+    place_load(&push, axis, point);
+    return of_free(ritz->free, axis, side, point) + by_polynomials(ritz, &push.load) -
+           by_polynomials(ritz->free, &push.load);
+}
+
+/* (1 + nu)(1 - 2 nu)^2/(2 pi) of the mean curvature, 1/(2 R). */
+double ritz_slope(const struct ritz *ritz)
+{
+    double side = 1.0 - 2.0 * ritz->poisson;
+    return (1.0 + ritz->poisson) * side * side / (2.0 * M_PI * ritz->basis.side[1]);
+}
+
+/* Of a plate hit in its middle the flexibility lacks 0.11 exp(-4 (s - 1))/(E h) with s polynomials
+ * for each thickness h along its sides, s = 0.5 ... 2; polynomials are denser near the ends. */
+static double lacking(const struct ritz *ritz, int axis, const double point[3], double distance)
+{
+    static const double ONE = 0.11, FALL = 4.0, MOST = 1.2;
+    double least = INFINITY;
+    for (int i = 1; i < 3; i++) {
+        int d = (axis + i) % 3;
+        double x = 2.0 * point[d] / ritz->basis.side[d];
+        if (ritz->basis.round && axis == 0)
+            x = 2.0 * hypot(point[1], point[2]) / ritz->basis.side[1];
+        double spacing =
+            ritz->basis.side[d] * sqrt(fmax(1.0 - x * x, 1e-4)) / (double)ritz->basis.orders[d];
+        least = fmin(least, distance / spacing);
+    }
+    return fmin(ONE * exp(FALL * (1.0 - least)), MOST) / distance;
+}
+
+/* Beside a held face and where the mirror of the load is held, by polynomials that are finer by a
+ * half: 0.01 to 0.003 over the distance, which the edges of held faces, whose stress is infinite,
+ * leave. */
+static double beside_held(const struct ritz *ritz, const double point[3])
+{
+    static const double HELD = 0.02;
+    double sum = 0.0;
+    for (int end = 0; end < 2; end++) {
+        double distance = 0.5 * ritz->basis.side[0] + (end ? -point[0] : point[0]);
+        if (ritz->basis.held[end])
+            sum += HELD / fmax(distance, 1e-3 * ritz->basis.side[0]);
+    }
+    return sum;
+}
+
+struct ritz_unresolved ritz_unresolved_at(const struct ritz *ritz, int axis, int side,
+                                          const double point[3])
+{
+    static const double DOUBT = 0.3, DOUBT_HELD = 0.5;
+    int along = axis == RITZ_ROUND ? 1 : axis;
+    const double turned[3] = {point[0], 0.5 * ritz->basis.side[1], 0.0};
+    const double *at = axis == RITZ_ROUND ? turned : point;
+    struct ritz_unresolved unresolved = {lacking(ritz, along, at, ritz->basis.side[along]), 0.0};
+    unresolved.doubt = (ritz->free ? DOUBT_HELD : DOUBT) * unresolved.lacks;
+    /* the opposite face is held: it is stiffer, not softer */
+    if (ritz->free && axis == 0 && ritz->basis.held[side < 0]) {
+        unresolved.doubt = unresolved.lacks;
+        unresolved.lacks = 0.0;
+    }
+    unresolved.doubt += beside_held(ritz, at);
+    for (int i = 1; i < 3; i++) {
+        int d = (along + i) % 3;
+        double off = ritz->basis.round && axis == 0 ? hypot(point[1], point[2]) : fabs(at[d]);
+        double near = fmax(0.5 * ritz->basis.side[d] - off, 1e-3 * ritz->basis.side[d]);
+        /* of a circle the rim counts once, of its side the ends */
+        if (ritz->basis.round && d == 2)
+            continue;
+        unresolved.doubt += lacking(ritz, along, at, near);
+    }
+    return unresolved;
 }
