@@ -14,7 +14,6 @@
 #include "daemon/standby.h"
 #include "endpoint/endpoint.h"
 #include "model/body_kind.h"
-#include "model/describe.h"
 #include "percuss/plausible.h"
 #include "respond/table_cache.h"
 #include "store/database.h"

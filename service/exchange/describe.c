@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/describe.h"
+#include "model/body_kind.h"
 #include "percuss/plausible.h"
 
 static void describe_sites(const struct body *body, percuss_v1_Body *wire,

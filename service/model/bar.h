@@ -6,8 +6,7 @@
 #define PERCUSS_MODEL_BAR_H
 
 #include "model/body.h"
-#include "model/describe.h"
-#include "model/face.h"
+#include "model/body_kind.h"
 #include "model/modal_basis.h"
 #include "model/site.h"
 

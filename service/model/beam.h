@@ -41,13 +41,66 @@ struct beam_mode {
 };
 
 /* The first `count` elastic modes (rigid ones are not among them), frequencies ascending, relative
- * error of omega some 1e-15. No mode is missed: each root has its own bracket, see beam_roots.h.
+ * error of omega some 1e-15. No mode is missed: each root has its own bracket, see beam.c.
  * Shapes are good to 1e-12 of their amplitude as far as the frequency's neighbours allow: two waves
  * whose frequencies differ by a relative gap mix with an error of some 1e-16/gap per half-wave. */
 void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes);
 
-/* The same by parts: a walk (beam_roots.h) is started, and then gives the next `count` modes. */
-struct beam_root_walk;
+/* The eigenvalues b = omega sqrt(rhoA L^4/EI) of such a beam, one after the other. */
+struct beam_ratios {
+    double inertia; /* r^2 */
+    double shear;   /* q^2 */
+};
+
+/* Even deflections are a combination of C(s) and cos(beta s), odd ones of alpha^2 P(s)/beta and
+ * sin(beta s); COUPLED ones of all four, which unequal supports need. */
+enum beam_parity { BEAM_EVEN, BEAM_ODD, BEAM_COUPLED };
+
+/* Which solution a mode of a pinned-pinned beam consists of. Both: every other beam. */
+enum beam_family { BEAM_BENDING_FAMILY, BEAM_SHEAR_FAMILY, BEAM_BOTH_FAMILIES };
+
+struct beam_root {
+    double b;
+    enum beam_parity parity;
+    enum beam_family family;
+};
+
+/* Walks through the closed-form roots of the pinned-pinned beam in one class. */
+struct beam_pinned_walk {
+    struct beam_ratios ratios;
+    enum beam_parity parity;
+    unsigned step; /* between the wave numbers (in units of pi) of the class */
+    unsigned wave_number[2];
+    double next[2];
+};
+
+/* Walks through roots of which each lies between two neighbours of a given sequence. */
+struct beam_interlaced_walk {
+    struct beam_ratios ratios;
+    enum support supports[2];
+    enum beam_parity parity;
+    double low;   /* the next root is not below */
+    double value; /* of the determinant there */
+    double sign;  /* of the determinant just above */
+};
+
+/* All roots of a beam, ascending. Fields are private. */
+struct beam_root_walk {
+    enum support supports[2];
+    bool symmetric, pinned, cantilever;
+    struct beam_pinned_walk closed[2];
+    struct beam_interlaced_walk interlaced[2];
+    struct beam_root next[2];
+};
+
+/* The left support must not be looser than the right one (free < pinned < clamped). */
+void beam_root_walk_start(struct beam_root_walk *walk, const struct beam_ratios *ratios,
+                          const enum support supports[2]);
+
+/* The next elastic root; rigid motions are not among them. */
+struct beam_root beam_root_walk_next(struct beam_root_walk *walk);
+
+/* The modes by parts: a walk is started, and then gives the next `count` modes. */
 void beam_modes_start(const struct beam_plane *plane, struct beam_root_walk *walk);
 void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk, size_t count,
                      struct beam_mode *modes);

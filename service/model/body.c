@@ -4,12 +4,14 @@
 #include "model/body.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/body_kind.h"
 #include "model/key.h"
-#include "model/mode_family.h"
 #include "model/ritz_store.h"
 
 static enum percuss_status refuse_number(const struct key *key, unsigned number,
@@ -200,4 +202,129 @@ void body_set_free(struct body_set *set)
     if (set)
         body_set_clear(set);
     free(set);
+}
+
+/* Bodies that differ from the catalogue's in some parameters. */
+
+/* Where the body holds it; NULL: a body of this shape has no such parameter. */
+static double *find_parameter(struct body *body, unsigned parameter)
+{
+    /* of the material: every body has them */
+    switch (parameter) {
+    case PERCUSS_PARAMETER_YOUNG:
+        return &body->material.young;
+    case PERCUSS_PARAMETER_POISSON:
+        return &body->material.poisson;
+    case PERCUSS_PARAMETER_DENSITY:
+        return &body->material.density;
+    case PERCUSS_PARAMETER_YIELD:
+        return &body->material.yield;
+    case PERCUSS_PARAMETER_TANGENT:
+        return &body->material.tangent;
+    /* of the body: only some kinds */
+    case PERCUSS_PARAMETER_DAMPING:
+        return body_can_vibrate(body) ? &body->damping : NULL;
+    case PERCUSS_PARAMETER_RADIUS:
+        return body->radius > 0.0 ? &body->radius : NULL;
+    case PERCUSS_PARAMETER_SCALE:
+        return body->mesh ? &body->scale : NULL;
+    default:
+        return NULL;
+    }
+}
+
+double body_parameter(const struct body *body, enum percuss_parameter parameter)
+{
+    struct body copy = *body;
+    const double *value = find_parameter(&copy, parameter);
+    return value ? *value : NAN;
+}
+
+enum percuss_status body_vary(const struct body *body, const struct body_variation *variations,
+                              size_t count, struct body *varied, struct fault *fault)
+{
+    bool given[PERCUSS_PARAMETER_COUNT] = {false};
+    *varied = *body;
+    for (size_t i = 0; i < count; i++) {
+        const struct body_variation *variation = &variations[i];
+        const char *name = parameter_name(variation->parameter);
+        double *parameter = find_parameter(varied, variation->parameter);
+        if (!parameter)
+            return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %g: a %s has no such parameter", name,
+                             variation->value, body->kind->name);
+        if (given[variation->parameter])
+            return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %g: must be given once only", name,
+                             variation->value);
+        given[variation->parameter] = true;
+        *parameter = variation->value;
+    }
+    varied->varied = count > 0;
+    return body_complete(varied, fault);
+}
+
+bool body_same_modes(const struct body *a, const struct body *b)
+{
+    return strcmp(a->id, b->id) == 0 && a->material.young == b->material.young &&
+           a->material.poisson == b->material.poisson &&
+           a->material.density == b->material.density && a->radius == b->radius &&
+           a->damping == b->damping && a->scale == b->scale && a->supports[0] == b->supports[0] &&
+           a->supports[1] == b->supports[1];
+}
+
+/* Orders. */
+
+struct body_board {
+    atomic_flag taken; /* held while a thread copies the news */
+    struct body_news news;
+};
+
+static void board_take(struct body_board *board)
+{
+    while (atomic_flag_test_and_set_explicit(&board->taken, memory_order_acquire))
+        ;
+}
+
+static void board_give_back(struct body_board *board)
+{
+    atomic_flag_clear_explicit(&board->taken, memory_order_release);
+}
+
+bool body_order_begin(struct body_order *order)
+{
+    order->board = calloc(1, sizeof *order->board);
+    if (!order->board)
+        return false;
+    atomic_flag_clear(&order->board->taken);
+    body_order_tell(order, PERCUSS_BUSY, "its mesh waits to be reduced: ask again later");
+    return true;
+}
+
+void body_order_tell(const struct body_order *order, enum percuss_status status, const char *format,
+                     ...)
+{
+    struct body_news news = {.status = status};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(news.text, sizeof news.text, format, arguments);
+    va_end(arguments);
+    board_take(order->board);
+    order->board->news = news;
+    board_give_back(order->board);
+}
+
+struct body_news body_order_news(const struct body_order *order)
+{
+    board_take(order->board);
+    struct body_news news = order->board->news;
+    board_give_back(order->board);
+    return news;
+}
+
+void body_order_clear(struct body_order *order)
+{
+    for (size_t i = 0; i < order->argument_count; i++)
+        free(order->arguments[i]);
+    free(order->mesh);
+    free(order->board);
+    *order = (struct body_order){.argument_count = 0};
 }

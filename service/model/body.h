@@ -11,10 +11,9 @@
 
 #include "base/fault.h"
 #include "model/body_kind.h"
-#include "model/body_order.h"
 #include "model/material.h"
 #include "model/mesh_body.h"
-#include "model/named_site.h"
+#include "percuss/vocabulary.h"
 
 struct ritz_store; /* ritz_store.h */
 
@@ -22,6 +21,24 @@ enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixe
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
 /* Absent: Hutchinson's, and Cowper's where that is no fraction (a wide section, kind_beam.c). */
 enum shear_rule { SHEAR_ABSENT, SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
+
+/* Most places of a body that have names. */
+enum { BODY_MOST_SITES = PERCUSS_MAX_SITES };
+
+/* A place on a mesh's surface that has a name. */
+struct body_site {
+    char name[PERCUSS_ID_SIZE];
+    double point[3];     /* in the mesh's frame and unit; on the surface once placed */
+    double normal[3];    /* outward, unit */
+    double curvature[9]; /* symmetric tensor, 1/m at the mesh's own size */
+    bool has_normal;     /* declared: else the surface's own is set by body_complete */
+    bool has_curvature;
+    bool placed;      /* what follows is set: by the first body_complete */
+    unsigned face;    /* of the mesh */
+    double moved;     /* how far off the surface it was declared, if farther than is usual for a
+                       * point, m at the mesh's own size; else 0 */
+    char remark[128]; /* how far what is declared differs from the surface's own, or empty */
+};
 
 struct body {
     char id[PERCUSS_ID_SIZE];
@@ -114,6 +131,40 @@ struct solid body_solid(const struct body *body);
  */
 bool body_has_sphere(const struct body *body);
 const char *body_theory(const struct body *body);
+
+/* A body of the catalogue that is given as a mesh or whose file is missing, and the news of it. */
+enum { BODY_ORDER_SETS = 32, BODY_ORDER_ARGUMENTS = BODY_ORDER_SETS + 4, BODY_NEWS_SIZE = 480 };
+
+/* What who asks for the body is told. */
+struct body_news {
+    enum percuss_status status; /* PERCUSS_BUSY: it is to come; else why it is not */
+    char text[BODY_NEWS_SIZE];
+};
+
+struct body_board; /* where the news stand */
+
+struct body_order {
+    char id[PERCUSS_ID_SIZE];
+    char name[65]; /* of the body's file: hash of all that it is made from */
+    bool made;     /* that file is there: the set has the body itself */
+    bool missing;  /* there is no mesh to reduce: the catalogue names a body's file, which lacks */
+    char *mesh;    /* path of the mesh */
+    char *arguments[BODY_ORDER_ARGUMENTS]; /* options of percuss-reduce, but for files */
+    size_t argument_count;
+    char material[400]; /* its material as a catalogue of its own; empty: the mesh states it */
+    struct body_board *board;
+};
+
+/* Begins what is zeroed: the mesh waits. False: no memory. */
+bool body_order_begin(struct body_order *order);
+
+/* Any thread, as long as the order stands. */
+void body_order_tell(const struct body_order *order, enum percuss_status status, const char *format,
+                     ...) __attribute__((format(printf, 3, 4)));
+struct body_news body_order_news(const struct body_order *order);
+
+/* Frees what it holds and leaves it empty. */
+void body_order_clear(struct body_order *order);
 
 /* An immutable catalogue. Owns its arrays; loaders fill it, see catalogue/. */
 struct body_set {

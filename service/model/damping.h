@@ -8,7 +8,7 @@
 #define PERCUSS_MODEL_DAMPING_H
 
 #include "model/body.h"
-#include "model/describe.h"
+#include "model/body_kind.h"
 
 /* The ratio of a mode. */
 double damping_of(const struct body *body, size_t mode);

@@ -4,13 +4,11 @@
 #include <math.h>
 
 #include "model/bar.h"
+#include "model/bar_waves.h"
 #include "model/beam.h"
-#include "model/beam_families.h"
 #include "model/key.h"
-#include "model/longitudinal.h"
 #include "model/mesh_family.h"
 #include "model/ritz.h"
-#include "model/torsion.h"
 
 static const char *const ends[] = {
     [SUPPORT_FREE] = "free",
@@ -218,7 +216,6 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return count;
 }
 
-static const struct mode_family *const strip_families[] = {&mesh_family};
 static const struct mode_family *const families[] = {
     [BAR_LONGITUDINAL] = &longitudinal_family,
     [BAR_BENDING_Y] = &beam_bending_family,
@@ -295,36 +292,24 @@ static void describe(const struct body *body, struct body_description *descripti
     bar_describe_ends(body, description);
 }
 
+/* A beam of the catalogue, whichever theory its vibration has. */
+#define BEAM_MEMBERS                                                                               \
+    .name = "beam", .keys = keys, .key_count = sizeof keys / sizeof *keys, .check = check,         \
+    .complete = complete, .smallest_radius = smallest_radius, .faces = find_faces,                 \
+    .why_not = bar_why_not, .describe = describe
+
 const struct body_kind beam_kind = {
-    .name = "beam",
-    .keys = keys,
-    .key_count = sizeof keys / sizeof *keys,
-    .check = check,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .why_not = bar_why_not,
     .families = families,
     .family_count = sizeof families / sizeof *families,
     .load = load_families,
     .alike = alike,
     .theory = theory,
-    .describe = describe,
+    BEAM_MEMBERS,
 };
 
+/* A strip: its vibration is a block's. */
 static const struct body_kind strip_kind = {
-    .name = "beam",
-    .keys = keys,
-    .key_count = sizeof keys / sizeof *keys,
-    .check = check,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .why_not = bar_why_not,
+    BEAM_MEMBERS,
+    BOX_VIBRATION,
     .box = mesh_family_box,
-    .families = strip_families,
-    .family_count = sizeof strip_families / sizeof *strip_families,
-    .load = mesh_family_load,
-    .theory = mesh_family_theory,
-    .describe = describe,
 };

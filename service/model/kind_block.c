@@ -5,12 +5,12 @@
 
 #include "model/bar.h"
 #include "model/body.h"
+#include "model/body_kind.h"
 #include "model/damping.h"
-#include "model/describe.h"
-#include "model/face.h"
 #include "model/key.h"
 #include "model/mesh_family.h"
 #include "model/ritz.h"
+#include "model/site.h"
 
 static const char *const ends[] = {
     [SUPPORT_FREE] = "free",
@@ -24,18 +24,8 @@ static const struct key keys[] = {
                 "written clamped-free or cantilever; the end of a block has no pin: clamp it, or "
                 "use a beam",
      KEY_SAYS("free", "how its faces at -x and +x are held: nothing moves on a clamped one")},
-    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
-     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
-              "damping ratio of every elastic mode")},
-    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
-     KEY_SAYS("as many as the tolerance asks for",
-              "fixed number of modes, of those that are computed")},
-    {"rigid", KEY_FLAG, KEY_OF(body, rigid),
-     KEY_SAYS("false",
-              "mass, inertia and surface only: the error states what its vibration takes")},
+    BOX_VIBRATION_KEYS,
 };
-
-static const struct mode_family *const families[] = {&mesh_family};
 
 static bool is_held(const struct body *body)
 {
@@ -120,9 +110,6 @@ const struct body_kind block_kind = {
     .why_not = bar_why_not,
     .solid = solid,
     .box = mesh_family_box,
-    .families = families,
-    .family_count = sizeof families / sizeof *families,
-    .load = mesh_family_load,
-    .theory = mesh_family_theory,
+    BOX_VIBRATION,
     .describe = describe,
 };

@@ -16,18 +16,8 @@ static const struct key keys[] = {
      KEY_SAYS("radius stands instead", "twice the radius")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
-    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
-     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
-              "damping ratio of every elastic mode")},
-    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
-     KEY_SAYS("as many as the tolerance asks for",
-              "fixed number of modes, of those that are computed")},
-    {"rigid", KEY_FLAG, KEY_OF(body, rigid),
-     KEY_SAYS("false",
-              "mass, inertia and surface only: the error states what its vibration takes")},
+    BOX_VIBRATION_KEYS,
 };
-
-static const struct mode_family *const families[] = {&mesh_family};
 
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
@@ -83,9 +73,6 @@ const struct body_kind cylinder_kind = {
     .faces = find_faces,
     .solid = solid,
     .box = box,
-    .families = families,
-    .family_count = sizeof families / sizeof *families,
-    .load = mesh_family_load,
-    .theory = mesh_family_theory,
+    BOX_VIBRATION,
     .describe = describe,
 };

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "model/body.h"
-#include "model/describe.h"
-#include "model/face.h"
+#include "model/body_kind.h"
+#include "model/site.h"
 
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {

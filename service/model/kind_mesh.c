@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "model/body.h"
+#include "model/body_kind.h"
 #include "model/damping.h"
-#include "model/describe.h"
-#include "model/face.h"
 #include "model/facet.h"
 #include "model/key.h"
 #include "model/mesh_family.h"
@@ -64,8 +63,6 @@ static const struct key keys[] = {
     {"fixed", KEY_LIST, .required = false, .allowed = "a list of names of sets of the mesh",
      KEY_SAYS("it is free", "what of a mesh is held")},
 };
-
-static const struct mode_family *const families[] = {&mesh_family};
 
 static enum percuss_status check(const struct body *body, struct fault *fault)
 {
@@ -375,8 +372,8 @@ const struct body_kind mesh_kind = {
     .smallest_radius = smallest_radius,
     .faces = find_faces,
     .why_not = why_not,
-    .families = families,
-    .family_count = sizeof families / sizeof *families,
+    .families = mesh_family_alone,
+    .family_count = 1,
     .load = load_family,
     .material_at = material_at,
     .theory = theory,

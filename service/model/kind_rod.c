@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "model/bar.h"
+#include "model/bar_waves.h"
 #include "model/key.h"
-#include "model/longitudinal.h"
 
 static const char *const ends[] = {
     [SUPPORT_FREE] = "free",

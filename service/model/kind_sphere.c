@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "model/body.h"
-#include "model/describe.h"
-#include "model/face.h"
+#include "model/body_kind.h"
 #include "model/key.h"
+#include "model/site.h"
 
 static const struct key keys[] = {
     {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), .instead = {"diameter"},

@@ -6,7 +6,8 @@
 #ifndef PERCUSS_MODEL_MESH_FAMILY_H
 #define PERCUSS_MODEL_MESH_FAMILY_H
 
-#include "model/mode_family.h"
+#include "model/body_kind.h"
+#include "model/mesh_body.h"
 
 struct ritz_shape;
 struct site;
@@ -20,6 +21,24 @@ void mesh_family_load(const struct body *body, const struct site *site, const do
                       struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
 
+/* Members of a kind whose vibration is that of its `box`, and its keys for it. */
+extern const struct mode_family *const mesh_family_alone[1];
+#define BOX_VIBRATION                                                                              \
+    .families = mesh_family_alone, .family_count = 1, .load = mesh_family_load,                    \
+    .theory = mesh_family_theory
+#define BOX_VIBRATION_KEYS                                                                         \
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),                                 \
+     KEY_SAYS("half of its material's loss_factor; 0 where that states none",                      \
+              "damping ratio of every elastic mode")},                                             \
+        {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),                                    \
+         KEY_SAYS("as many as the tolerance asks for",                                             \
+                  "fixed number of modes, of those that are computed")},                           \
+    {                                                                                              \
+        "rigid", KEY_FLAG, KEY_OF(body, rigid),                                                    \
+            KEY_SAYS("false",                                                                      \
+                     "mass, inertia and surface only: the error states what its vibration takes")  \
+    }
+
 /* The box of a body of three sides, its ends held as its supports say. False: beyond Ritz's reach.
  */
 bool mesh_family_box(const struct body *body, struct ritz_shape *shape);
@@ -32,5 +51,18 @@ struct mesh_ratio mesh_ratio_of(const struct body *body);
 
 /* Flexibilities over those of the file: 1/(E L). */
 double mesh_ratio_flexibility(const struct body *body);
+
+/* The static response of a meshed body at one place of its surface to a force at another, from the
+ * sites of its file. */
+/* A unit force normal to the surface, in the file's frame and size. */
+struct mesh_push {
+    unsigned face;
+    double point[3], direction[3];
+};
+
+/* Displacement (m/N) along the one per newton of the other, without the first mesh->removed modes,
+ * of the file's own size and materials; NAN: the file says nothing of it. */
+double mesh_between(const struct mesh_body *mesh, const struct mesh_push *i,
+                    const struct mesh_push *j);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "model/beam.h"
 #include "model/body.h"
-#include "model/mode_family.h"
+#include "model/body_kind.h"
 #include "model/site.h"
 
 /* A force on a face of a mesh, or of a box (ritz.h). */
@@ -68,7 +68,7 @@ double modal_compliance(const struct body *body, size_t family, const struct fam
                         const struct family_load *j);
 
 /* What the modes from `first` on leave of a load's compliance where nothing says so but what the
- * others hold, `left`; see mode_family.h. */
+ * others hold, `left`; see struct mode_family. */
 double modal_beyond(const struct body *body, const struct modal_family *modes, size_t first,
                     const struct family_load *load, double left);
 

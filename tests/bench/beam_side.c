@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The fit of model/beam_side.c anew: static solutions on meshes of bars (side_local.h), least
+/* The fit of model/beam_statics.c anew: static solutions on meshes of bars (side_local.h), least
  * squares, and what they leave. Some ten minutes of one core. usage: beam_side [--quick] [--csv]
  * fewer bars and places; every solution */
 #include <stdio.h>

@@ -58,7 +58,7 @@ static bool warns_of_compliance(const struct solve_result *result)
     return false;
 }
 
-/* A beam's side holds its own (model/beam_side.c) whatever is asked, so that the choice is the
+/* A beam's side holds its own (model/beam_statics.c) whatever is asked, so that the choice is the
  * ball's. Of a beam without shear nothing is known: half-space, and the reply says so when asked
  * for more. */
 static void beams_know_their_sides(void **state)

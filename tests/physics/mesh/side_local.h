@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What a point of a bar's side gives way beyond its half-space and the bar's own compliance there:
- * the static solution on a mesh less what the beam's families hold (model/beam_side.c). */
+ * the static solution on a mesh less what the beam's families hold (model/beam_statics.c). */
 #ifndef PERCUSS_TEST_SIDE_LOCAL_H
 #define PERCUSS_TEST_SIDE_LOCAL_H
 

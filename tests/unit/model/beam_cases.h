@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Beams and helpers that several tests of model/beam_*.c share. */
+/* Beams and helpers that several tests of beams share. */
 #ifndef PERCUSS_TEST_BEAM_CASES_H
 #define PERCUSS_TEST_BEAM_CASES_H
 

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam_roots.c: no root is missed, none is doubled. */
+/* Mirrors service/model/beam.c: no root is missed, none is doubled. */
 #include "check.h"
-#include "model/beam_roots.h"
+#include "model/beam.h"
 
 /* The independent judge: the dynamic stiffness matrix of Wittrick and Williams 1971. */
 

@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "model/body.h"
-#include "model/mode_family.h"
+#include "model/body_kind.h"
 
 static void kinds_keep_their_numbers(void **state)
 {

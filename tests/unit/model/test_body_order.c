@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* model/body_order: what is told of it while others listen. */
-#include "model/body_order.h"
+/* Mirrors service/model/body.c, orders: what is told of it while others listen. */
+#include "model/body.h"
 
 #include <pthread.h>
 #include <stdlib.h>

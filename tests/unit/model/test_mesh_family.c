@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* model/mesh_between: a half-space's field beside a smooth one, given at sites, is what comes back
+/* Mirrors service/model/mesh_family.c: a half-space's field beside a smooth one, given at sites, is what comes back
  * between them. */
-#include "model/mesh_between.h"
+#include "model/mesh_family.h"
 
 #include <string.h>
 

@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/torsion.c: the section's constants, modes against Vlasov's equation, static
+/* Mirrors service/model/bar_waves.c, twist: the section's constants, modes against Vlasov's equation, static
  * compliances that the modal sums approach, and d'Alembert's waves. */
 #include "check.h"
 #include "model/bar.h"
+#include "model/bar_waves.h"
 #include "model/modal_basis.h"
-#include "model/torsion.h"
 
 static struct body strip(double width, double height, enum support left, enum support right)
 {

@@ -1,11 +1,144 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "model/torsion.h"
+/* The waves of a straight uniform bar as families of modes: longitudinal, bending, twist. */
+#include "model/bar_waves.h"
 
 #include <math.h>
 
-#include "model/material.h"
+#include "model/bar.h"
+#include "model/beam.h"
+
+/* Ends that hold the axis and the twist: any support does. */
+static int bar_held_ends(const struct body *body)
+{
+    return (body->supports[0] != SUPPORT_FREE) + (body->supports[1] != SUPPORT_FREE);
+}
+
+/* Wave number of mode k = 0, 1, ..., rad/m. */
+static double longitudinal_wave_number(const struct body *body, size_t k)
+{
+    double half_waves = bar_held_ends(body) == 1 ? (double)k + 0.5 : (double)k + 1.0;
+    return half_waves * M_PI / body->span;
+}
+
+/* Lateral inertia: kinetic energy grows by this share, (nu r_p k)^2 with the polar radius of
+ * gyration (Love; Graff, Wave Motion in Elastic Solids, section 2.5.3). */
+static double lateral_share(const struct body *body, double wave_number)
+{
+    if (!body->lateral_inertia)
+        return 0.0;
+    double x = body->material.poisson * wave_number * body->radius * M_SQRT1_2;
+    return x * x;
+}
+
+static void find_longitudinal(const struct body *body, struct modal_family *modes)
+{
+    double speed = sqrt(body->material.young / body->material.density);
+    for (size_t k = 0; k < modes->count; k++) {
+        double wave_number = longitudinal_wave_number(body, k);
+        modes->omega[k] = wave_number * speed / sqrt(1.0 + lateral_share(body, wave_number));
+    }
+}
+
+static bool is_right(const struct family_load *load)
+{
+    return load->bar.x > 0.0;
+}
+
+/* u_k = sqrt(2/M) cos or sin, largest at a free end; sign by the number of half waves between:
+ * free-free cos(k pi (x/L + 1/2)) with k from 1; one end held: +1 at the free end. */
+static void longitudinal_participations(const struct body *body, const struct modal_family *modes,
+                                        const size_t *which, size_t count,
+                                        const struct family_load *load, double *row)
+{
+    (void)modes;
+    int held = bar_held_ends(body);
+    for (size_t i = 0; i < count; i++) {
+        size_t k = which[i];
+        double share = lateral_share(body, longitudinal_wave_number(body, k));
+        double amplitude = held == 2 ? 0.0 : sqrt(2.0 / (body->mass * (1.0 + share)));
+        bool flips = held == 0 && is_right(load) && k % 2 == 0;
+        row[i] = flips ? -amplitude * load->bar.force : amplitude * load->bar.force;
+    }
+}
+
+/* Free-free: L/(3EA) at the same end, -L/(6EA) across, both with inertia relief (u along x); one
+ * end held: L/(EA). */
+static double longitudinal_compliance(const struct body *body, size_t family,
+                                      const struct family_load *i, const struct family_load *j)
+{
+    (void)family;
+    double full = body->span / (body->material.young * body->area);
+    double share = 1.0;
+    if (bar_held_ends(body) == 0)
+        share = is_right(i) == is_right(j) ? 1.0 / 3.0 : -1.0 / 6.0;
+    else if (bar_held_ends(body) == 2)
+        share = 0.0;
+    return share * full * i->bar.force * j->bar.force;
+}
+
+static bool longitudinal_crowds(const struct body *body)
+{
+    return body->lateral_inertia;
+}
+
+const struct mode_family longitudinal_family = {
+    .find = find_longitudinal,
+    .participations = longitudinal_participations,
+    .compliance = longitudinal_compliance,
+    .crowds = longitudinal_crowds,
+};
+
+/* Bending by beam.h. */
+
+static int plane_number(size_t family)
+{
+    return family == BAR_BENDING_Z;
+}
+
+static void find_bending(const struct body *body, struct modal_family *modes)
+{
+    struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
+    struct beam_mode *shapes = modes->shapes;
+    size_t known = modes->known;
+    if (known == 0)
+        beam_modes_start(&plane, modes->walk);
+    beam_modes_next(&plane, modes->walk, modes->count - known, shapes + known);
+    bool alike = plane.supports[0] == plane.supports[1];
+    for (size_t k = known; k < modes->count; k++) {
+        modes->omega[k] = shapes[k].omega;
+        modes->odd[k] = alike && shapes[k].even[0] == 0.0 && shapes[k].even[1] == 0.0;
+    }
+}
+
+static void bending_participations(const struct body *body, const struct modal_family *modes,
+                                   const size_t *which, size_t count,
+                                   const struct family_load *load, double *row)
+{
+    struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
+    const struct beam_mode *shapes = modes->shapes;
+    for (size_t i = 0; i < count; i++)
+        row[i] = beam_mode_on(&plane, &shapes[which[i]], &load->bar);
+}
+
+static double bending_compliance(const struct body *body, size_t family,
+                                 const struct family_load *i, const struct family_load *j)
+{
+    struct beam_plane plane = beam_plane_of(body, plane_number(family));
+    return beam_compliance(&plane, &i->bar, &j->bar);
+}
+
+const struct mode_family beam_bending_family = {
+    .bends = true,
+    .shape_size = sizeof(struct beam_mode),
+    .walk_size = sizeof(struct beam_root_walk),
+    .find = find_bending,
+    .participations = bending_participations,
+    .compliance = bending_compliance,
+};
+
+/* Twist. */
 
 /* J = a b^3/3 (1 - 192 b/(pi^5 a) sum tanh(n pi a/(2b))/n^5), n odd, a >= b. The sum of 1/n^5 is
  * 31/32 zeta(5), and 1 - tanh z = 2/(exp(2z) + 1) falls geometrically. */
@@ -41,19 +174,19 @@ double torsion_warping_constant(const struct body *body)
 
 /* A bar with both ends free. Between held ends shapes are sines; one held end is the middle of a
  * free bar of twice the length, whose odd shapes are those. */
-struct bar {
+struct twisted_bar {
     double length;
     double stiffness, inertia;                 /* G J, rho I_p */
     double warping_stiffness, warping_inertia; /* E Gamma, rho Gamma */
     int held;
 };
 
-static struct bar bar_of(const struct body *body)
+static struct twisted_bar bar_of(const struct body *body)
 {
     double gamma = body->warping_constant;
-    int held = (body->supports[0] != SUPPORT_FREE) + (body->supports[1] != SUPPORT_FREE);
+    int held = bar_held_ends(body);
     double polar = body->second_moment[0] + body->second_moment[1];
-    return (struct bar){
+    return (struct twisted_bar){
         .length = held == 1 ? 2.0 * body->span : body->span,
         .stiffness = material_shear_modulus(&body->material) * body->torsion_constant,
         .inertia = body->material.density * polar,
@@ -64,18 +197,18 @@ static struct bar bar_of(const struct body *body)
 }
 
 /* Half waves of mode k. Those of a bar held at one end count in the double length: odd ones. */
-static double half_waves(const struct bar *bar, size_t k)
+static double half_waves(const struct twisted_bar *bar, size_t k)
 {
     return bar->held == 1 ? 2.0 * (double)k + 1.0 : (double)k + 1.0;
 }
 
-static bool is_odd_class(const struct bar *bar, size_t k)
+static bool is_odd_class(const struct twisted_bar *bar, size_t k)
 {
     return bar->held == 1 || k % 2 == 0;
 }
 
 /* omega^2 of waves with the wave number beta. */
-static double frequency_squared(const struct bar *bar, double beta)
+static double frequency_squared(const struct twisted_bar *bar, double beta)
 {
     double b2 = beta * beta;
     return b2 * (bar->stiffness + bar->warping_stiffness * b2) /
@@ -83,7 +216,7 @@ static double frequency_squared(const struct bar *bar, double beta)
 }
 
 /* Decay of the other solution, from alpha^2 beta^2 = rho I_p omega^2/(E Gamma). */
-static double decay(const struct bar *bar, double beta, double omega_squared)
+static double decay(const struct twisted_bar *bar, double beta, double omega_squared)
 {
     return sqrt(bar->inertia * omega_squared / bar->warping_stiffness) / beta;
 }
@@ -91,7 +224,7 @@ static double decay(const struct bar *bar, double beta, double omega_squared)
 /* A free end (theta'' = 0, E Gamma theta''' = (G J - rho Gamma omega^2) theta') reflects waves with
  * a phase: beta L = n pi - 2 atan((beta/alpha)^3 tanh(alpha L/2)), for odd shapes coth. The right
  * side less the left falls with beta, from above 0 at 0 to below at n pi. */
-static double phase_defect(const struct bar *bar, double waves, bool odd, double beta)
+static double phase_defect(const struct twisted_bar *bar, double waves, bool odd, double beta)
 {
     double alpha = decay(bar, beta, frequency_squared(bar, beta));
     double t = tanh(0.5 * alpha * bar->length);
@@ -101,7 +234,7 @@ static double phase_defect(const struct bar *bar, double waves, bool odd, double
 }
 
 /* Halving: 1e-16 of n pi in at most 60 steps. */
-static double wave_number(const struct bar *bar, size_t k)
+static double wave_number(const struct twisted_bar *bar, size_t k)
 {
     double waves = half_waves(bar, k);
     double high = waves * M_PI / bar->length;
@@ -122,13 +255,13 @@ static double wave_number(const struct bar *bar, size_t k)
 
 double torsion_frequency(const struct body *body, size_t k)
 {
-    struct bar bar = bar_of(body);
+    struct twisted_bar bar = bar_of(body);
     return sqrt(frequency_squared(&bar, wave_number(&bar, k)));
 }
 
 /* beta of a frequency: the positive root of E Gamma b^4 + T b^2 = rho I_p omega^2, with
  * T = G J - rho Gamma omega^2, without cancellation. */
-static double wave_number_of(const struct bar *bar, double omega)
+static double twist_wave_number(const struct twisted_bar *bar, double omega)
 {
     double squared = omega * omega;
     double tension = bar->stiffness - bar->warping_inertia * squared;
@@ -159,9 +292,9 @@ static struct products products_of(double half, double beta, double alpha)
 }
 
 /* cos(beta x) + r cosh(alpha x)/cosh(alpha L/2), or the sines; theta'' = 0 at the ends gives r. */
-static double free_shape(const struct bar *bar, bool odd, double omega, double x)
+static double free_shape(const struct twisted_bar *bar, bool odd, double omega, double x)
 {
-    double beta = wave_number_of(bar, omega), half = 0.5 * bar->length;
+    double beta = twist_wave_number(bar, omega), half = 0.5 * bar->length;
     double alpha = decay(bar, beta, omega * omega);
     struct products p = products_of(half, beta, alpha);
     double t = tanh(alpha * half), q = beta * beta / (alpha * alpha);
@@ -183,7 +316,7 @@ static double free_shape(const struct bar *bar, bool odd, double omega, double x
 
 double torsion_shape(const struct body *body, size_t k, double omega, double x)
 {
-    struct bar bar = bar_of(body);
+    struct twisted_bar bar = bar_of(body);
     bool odd = is_odd_class(&bar, k);
     if (bar.held == 1) /* from the held end; the double bar has half the amplitude squared */
         x = body->supports[0] == SUPPORT_FREE ? 0.5 * body->span - x : x + 0.5 * body->span;
@@ -199,7 +332,7 @@ double torsion_shape(const struct body *body, size_t k, double omega, double x)
 
 bool torsion_is_odd(const struct body *body, size_t k)
 {
-    struct bar bar = bar_of(body);
+    struct twisted_bar bar = bar_of(body);
     return bar.held == 1 ? false : bar.held == 0 ? k % 2 == 0 : k % 2 == 1;
 }
 
@@ -228,7 +361,7 @@ static double plateau(double half, double lambda, double x)
  * E Gamma theta'''' = 1/L - delta and lambda^2 = E Gamma/(G J) the difference phi solves
  * phi - lambda^2 phi'' = (lambda^2/G J)(delta - 1/L) and is 0 at free ends (theta'' = 0 there);
  * its mean is taken off. In L/(G J). */
-static double free_share(const struct bar *bar, double i, double j)
+static double free_share(const struct twisted_bar *bar, double i, double j)
 {
     double length = bar->length, half = 0.5 * length;
     double from_i = i / length + 0.5, from_j = j / length + 0.5;
@@ -244,7 +377,7 @@ static double free_share(const struct bar *bar, double i, double j)
 
 double torsion_compliance(const struct body *body, double x_i, double x_j)
 {
-    struct bar bar = bar_of(body);
+    struct twisted_bar bar = bar_of(body);
     double half = 0.5 * body->span, share;
     double lambda = sqrt(bar.warping_stiffness / bar.stiffness);
     if (bar.held == 2) {
@@ -261,3 +394,33 @@ double torsion_compliance(const struct body *body, double x_i, double x_j)
     }
     return share * bar.length / bar.stiffness;
 }
+
+static void find_twist(const struct body *body, struct modal_family *modes)
+{
+    for (size_t k = 0; k < modes->count; k++) {
+        modes->omega[k] = torsion_frequency(body, k);
+        modes->odd[k] = torsion_is_odd(body, k);
+    }
+}
+
+static void twist_participations(const struct body *body, const struct modal_family *modes,
+                                 const size_t *which, size_t count, const struct family_load *load,
+                                 double *row)
+{
+    for (size_t i = 0; i < count; i++)
+        row[i] =
+            load->bar.moment * torsion_shape(body, which[i], modes->omega[which[i]], load->bar.x);
+}
+
+static double twist_compliance(const struct body *body, size_t family, const struct family_load *i,
+                               const struct family_load *j)
+{
+    (void)family;
+    return i->bar.moment * j->bar.moment * torsion_compliance(body, i->bar.x, j->bar.x);
+}
+
+const struct mode_family beam_twist_family = {
+    .find = find_twist,
+    .participations = twist_participations,
+    .compliance = twist_compliance,
+};

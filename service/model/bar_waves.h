@@ -1,19 +1,32 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Twist theta of a straight uniform beam about its axis, with warping of its section (Vlasov 1961):
- *   rho I_p theta_tt - rho Gamma theta_xxtt = G J theta_xx - E Gamma theta_xxxx.
- * Gamma = 0, a round section, is Saint-Venant's bar. A support, pinned or clamped, holds the twist
- * and leaves the section free to warp. x runs from -length/2 to +length/2. */
-#ifndef PERCUSS_MODEL_TORSION_H
-#define PERCUSS_MODEL_TORSION_H
+/* The waves of a straight uniform bar as families of modes, x from -length/2 to +length/2. */
+#ifndef PERCUSS_MODEL_BAR_WAVES_H
+#define PERCUSS_MODEL_BAR_WAVES_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "model/body.h"
+#include "model/body_kind.h"
 
-/* Two constants of the section, which body_complete keeps; the rest takes a completed body. */
+/* Longitudinal: omega_k = k pi c/L (free-free), (k - 1/2) pi c/L (one end held), with Rayleigh-Love
+ * omega/sqrt(1 + (nu k r_p)^2). Driven by forces along x on the ends. */
+extern const struct mode_family longitudinal_family;
+
+/* Bending (beam.h) in the plane y as BAR_BENDING_Y, in the plane z as BAR_BENDING_Z; shapes are
+ * struct beam_mode. */
+extern const struct mode_family beam_bending_family;
+
+/* Twist theta about the axis, by a load's moment, with warping of the section (Vlasov 1961):
+ *   rho I_p theta_tt - rho Gamma theta_xxtt = G J theta_xx - E Gamma theta_xxxx.
+ * Gamma = 0, a round section, is Saint-Venant's bar. A support, pinned or clamped, holds the twist
+ * and leaves the section free to warp. */
+extern const struct mode_family beam_twist_family;
+
+/* Two constants of the section, which body_complete keeps; the other functions take a completed
+ * body. */
 
 /* Saint-Venant's torsion constant J of the section, m^4: pi r^4/2 of a circle, the series for a
  * rectangle (Timoshenko and Goodier, Theory of Elasticity, section 109), relative error 1e-15. */
