@@ -55,7 +55,7 @@ enum percuss_status bar_check_tips(const struct body *body, struct fault *fault)
                      body->tip_radius, body->radius);
 }
 
-/* Of a cap of height h: pi h (3 r^2 + h^2) / 6. */
+/* A cap of height h has the volume pi h (3 r^2 + h^2) / 6. */
 double bar_cap_loss(const struct body *body)
 {
     double h = cap_height(body), ratio = h > 0.0 ? h / body->radius : 0.0;
@@ -94,7 +94,7 @@ void bar_load_settle(const struct body *body, struct family_load *load)
 {
     double moment = fabs(load->bar.moment);
     bool pushes = fabs(load->bar.force) > NEGLIGIBLE;
-    /* of second order in the section's size without a force beside it */
+    /* without a force it is of second order in the section's size */
     if (!pushes)
         load->bar.curvature = 0.0;
     load->acts = pushes || (moment > 0.0 && moment / body_smallest_radius(body) > NEGLIGIBLE);

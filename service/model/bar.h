@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What straight bars along x have in common: rods, beams, compact cylinders. */
+/* Common parts of straight bars along x: rods, beams, compact cylinders. */
 #ifndef PERCUSS_MODEL_BAR_H
 #define PERCUSS_MODEL_BAR_H
 
@@ -21,32 +21,33 @@ void bar_complete_round(struct body *body);
 int bar_round_faces(const struct body *body, double tip_radius, const double p[3],
                     struct face *faces);
 
-/* Caps that cover the ends, or none: a smaller one would leave the face's rim beside it. PERCUSS_OK
- * or PERCUSS_BAD_REQUEST. */
+/* Checks that a cap covers its whole end, so that no rim of the end face remains. PERCUSS_OK or
+ * PERCUSS_BAD_REQUEST. */
 enum percuss_status bar_check_tips(const struct body *body, struct fault *fault);
 
-/* By how much a bar of a full section and the same volume is shorter at an end with a cap, m. */
+/* A bar with full sections and the same volume is shorter by this length at an end with a cap, m.
+ */
 double bar_cap_loss(const struct body *body);
 
-/* Where along x a cap, or a flat end, stands on the bar of a full section. */
+/* x of the section on which the cap, or the flat end, of a site stands. */
 double bar_cap_section(const struct body *body, const struct site *site);
 
-/* Why a site on a held end has no model; NULL: it is none. */
+/* Reason why no model covers a site on a held end; NULL: the site is not on one. */
 const char *bar_why_not(const struct body *body, const struct site *site);
 
-/* Where along x a site is: on an end, or within the length. */
+/* x of a site on the uniform bar (body->span): that of an end, or within its length. */
 double bar_place(const struct body *body, const struct site *site);
 
-/* The force along x: of a hit on an end. One on the side drives no longitudinal waves here: within
- * the angle allowed between stated and true normal that part is not the contact's. */
+/* Sets the force along x of a hit on an end. A hit on the side drives no longitudinal waves: its
+ * part along x comes from the angle that is allowed between the stated and the true normal. */
 void bar_load_along(const struct body *body, const struct site *site, const double direction[3],
                     struct family_load *load);
 
-/* Whether the load acts: what is below 1e-9 of a newton, its moment taken at the smallest radius,
- * is rounding of the pose. */
+/* Sets whether the load acts: a force below 1e-9 N, or a moment below 1e-9 N times the smallest
+ * radius, is rounding of the pose. */
 void bar_load_settle(const struct body *body, struct family_load *load);
 
-/* Ends, damping and a fixed number of modes. */
+/* Describes ends, damping and a fixed number of modes. */
 void bar_describe_ends(const struct body *body, struct body_description *description);
 
 #endif

@@ -172,8 +172,8 @@ double torsion_warping_constant(const struct body *body)
     return pow(a * b, 3.0) / 144.0 + sum;
 }
 
-/* A bar with both ends free. Between held ends shapes are sines; one held end is the middle of a
- * free bar of twice the length, whose odd shapes are those. */
+/* The free bar from which all cases follow. Between two held ends the shapes are sines; a bar held
+ * at one end has the odd shapes of a free bar of twice the length. */
 struct twisted_bar {
     double length;
     double stiffness, inertia;                 /* G J, rho I_p */
@@ -216,7 +216,7 @@ static double frequency_squared(const struct twisted_bar *bar, double beta)
 }
 
 /* Decay of the other solution, from alpha^2 beta^2 = rho I_p omega^2/(E Gamma). */
-static double decay(const struct twisted_bar *bar, double beta, double omega_squared)
+static double twist_decay(const struct twisted_bar *bar, double beta, double omega_squared)
 {
     return sqrt(bar->inertia * omega_squared / bar->warping_stiffness) / beta;
 }
@@ -226,7 +226,7 @@ static double decay(const struct twisted_bar *bar, double beta, double omega_squ
  * side less the left falls with beta, from above 0 at 0 to below at n pi. */
 static double phase_defect(const struct twisted_bar *bar, double waves, bool odd, double beta)
 {
-    double alpha = decay(bar, beta, frequency_squared(bar, beta));
+    double alpha = twist_decay(bar, beta, frequency_squared(bar, beta));
     double t = tanh(0.5 * alpha * bar->length);
     double ratio = beta / alpha;
     double turn = atan(ratio * ratio * ratio * (odd ? 1.0 / t : t));
@@ -295,7 +295,7 @@ static struct products products_of(double half, double beta, double alpha)
 static double free_shape(const struct twisted_bar *bar, bool odd, double omega, double x)
 {
     double beta = twist_wave_number(bar, omega), half = 0.5 * bar->length;
-    double alpha = decay(bar, beta, omega * omega);
+    double alpha = twist_decay(bar, beta, omega * omega);
     struct products p = products_of(half, beta, alpha);
     double t = tanh(alpha * half), q = beta * beta / (alpha * alpha);
     double r = odd ? q * sin(beta * half) / t : q * cos(beta * half);
@@ -357,10 +357,10 @@ static double plateau(double half, double lambda, double x)
     return 1.0 - (up + down) / (1.0 + exp(-2.0 * half / lambda));
 }
 
-/* Free: Saint-Venant's 1/3 - max + (i^2 + j^2)/2 less what warping takes. With G J theta'' -
- * E Gamma theta'''' = 1/L - delta and lambda^2 = E Gamma/(G J) the difference phi solves
- * phi - lambda^2 phi'' = (lambda^2/G J)(delta - 1/L) and is 0 at free ends (theta'' = 0 there);
- * its mean is taken off. In L/(G J). */
+/* Free bar: Saint-Venant's 1/3 - max + (i^2 + j^2)/2 less the share of warping. With
+ * G J theta'' - E Gamma theta'''' = 1/L - delta and lambda^2 = E Gamma/(G J) the difference phi
+ * solves phi - lambda^2 phi'' = (lambda^2/G J)(delta - 1/L) and is 0 at free ends (theta'' = 0
+ * there); its mean is taken off. In L/(G J). */
 static double free_share(const struct twisted_bar *bar, double i, double j)
 {
     double length = bar->length, half = 0.5 * length;

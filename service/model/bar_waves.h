@@ -39,8 +39,8 @@ double torsion_warping_constant(const struct body *body);
 /* Frequency (rad/s) of elastic mode k = 0, 1, ..., ascending. */
 double torsion_frequency(const struct body *body, size_t k);
 
-/* Rotation (rad) at x for unit modal coordinate of mode k, whose frequency is `omega`;
- * mass-normalised: integral of rho I_p theta^2 + rho Gamma theta'^2 = 1. */
+/* Rotation (rad) at x for unit modal coordinate of mode k of frequency `omega`; mass-normalised:
+ * integral of rho I_p theta^2 + rho Gamma theta'^2 = 1. */
 double torsion_shape(const struct body *body, size_t k, double omega, double x);
 
 /* Whether the shape is odd about the middle; never between unlike supports. */

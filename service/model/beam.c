@@ -297,8 +297,8 @@ static double chandrupatla_step(const double x[3], const double f[3])
 
 /* Root of the determinant between low and high, where it has the values f_low and f_high of
  * opposite signs, to the last bits. */
-static double polish(const struct beam_interlaced_walk *walk, double low, double f_low, double high,
-                     double f_high)
+static double root_polish(const struct beam_interlaced_walk *walk, double low, double f_low,
+                          double high, double f_high)
 {
     /* x[0] the latest, x[1] across the root, x[2] the one before */
     double x[3] = {high, low, low};
@@ -344,7 +344,7 @@ static double interlaced_next(struct beam_interlaced_walk *walk, double high)
         return low;
     if (f_high * sign >= 0.0)
         return high;
-    return polish(walk, low, f_low, high, f_high);
+    return root_polish(walk, low, f_low, high, f_high);
 }
 
 /* `below` must be less than the first elastic root; it settles the sign of the determinant. */
@@ -473,7 +473,7 @@ static void exchange(double *a, double *b)
 }
 
 /* Brings the pivot to the diagonal and clears the column below it. */
-static void eliminate(size_t n, double matrix[4][4], size_t step, const size_t pivot[2])
+static void pivot_eliminate(size_t n, double matrix[4][4], size_t step, const size_t pivot[2])
 {
     for (size_t j = 0; j < n; j++)
         exchange(&matrix[step][j], &matrix[pivot[0]][j]);
@@ -495,7 +495,7 @@ static void null_vector(size_t n, double matrix[4][4], double vector[4])
     for (size_t step = 0; step + 1 < n; step++) {
         size_t pivot[2] = {step, step};
         find_pivot(n, matrix, step, pivot);
-        eliminate(n, matrix, step, pivot);
+        pivot_eliminate(n, matrix, step, pivot);
         size_t moved = place[step];
         place[step] = place[pivot[1]];
         place[pivot[1]] = moved;
@@ -685,7 +685,7 @@ void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk
 }
 
 /* cosh(x) or sinh(|x|) (sign +1 or -1) over cosh(alpha/2), through decaying exponentials only. */
-static void hyperbolic(double alpha, double s, double *c, double *sn)
+static void solution_hyperbolic(double alpha, double s, double *c, double *sn)
 {
     double distance = alpha * (0.5 - fabs(s));
     double fall = expm1(-2.0 * alpha * fabs(s));
@@ -708,7 +708,7 @@ static struct solutions solutions_at(const struct beam_mode *mode, double s)
         at.c = cos(mode->alpha * s);
         at.sn = sin(mode->alpha * s);
     } else {
-        hyperbolic(mode->alpha, s, &at.c, &at.sn);
+        solution_hyperbolic(mode->alpha, s, &at.c, &at.sn);
     }
     return at;
 }
@@ -757,7 +757,7 @@ double beam_mode_on(const struct beam_plane *plane, const struct beam_mode *mode
     if (load->curvature == 0.0)
         return work;
 
-    /* mean of psi' about the place, or about what of that is on the beam */
+    /* mean of psi' over the window, or over its part on the beam */
     double half = 0.5 * load->window / plane->length;
     double from = fmax(s - half, -0.5), to = fmin(s + half, 0.5);
     double across;

@@ -11,8 +11,8 @@
 
 #include "model/body.h"
 
-/* Sections that are broader, in depths, bend across their breadth as well, as no theory of beams
- * says. */
+/* Sections broader than this many depths bend across their breadth as well, which no theory of
+ * beams has. */
 #define BEAM_BROADEST 2.5
 
 /* One plane of bending. x runs from -length/2 to +length/2. */
@@ -40,10 +40,10 @@ struct beam_mode {
     bool above_cutoff;
 };
 
-/* The first `count` elastic modes (rigid ones are not among them), frequencies ascending, relative
- * error of omega some 1e-15. No mode is missed: each root has its own bracket, see beam.c.
- * Shapes are good to 1e-12 of their amplitude as far as the frequency's neighbours allow: two waves
- * whose frequencies differ by a relative gap mix with an error of some 1e-16/gap per half-wave. */
+/* The first `count` elastic modes (without rigid ones), frequencies ascending, relative error of
+ * omega some 1e-15. No mode is missed: each root has its own bracket, see beam.c. Shapes are good
+ * to 1e-12 of their amplitude unless frequencies are close: two waves with a relative gap between
+ * their frequencies mix with an error of some 1e-16/gap per half-wave. */
 void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes);
 
 /* The eigenvalues b = omega sqrt(rhoA L^4/EI) of such a beam, one after the other. */
@@ -114,8 +114,8 @@ void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, 
 struct beam_plane beam_plane_of(const struct body *body, int plane);
 
 /* A transverse force and a moment (conjugate to psi) acting at x, and a load (N m^2) conjugate to
- * the mean of psi' over `window` about x, as far as that is on the beam. Other waves of a bar have
- * a force along it or a moment about it. */
+ * the mean of psi' over the part of `window` about x on the beam. For the other waves of a bar the
+ * force acts along it and the moment about it. */
 struct beam_load {
     double x;
     double force;
@@ -133,14 +133,14 @@ double beam_mode_on(const struct beam_plane *plane, const struct beam_mode *mode
  *     u_z = w + nu/2 (z^2 - y^2 - m) psi',    u_y = nu y z psi',    m = (I_z - I_y)/A,
  *
  * w being the mean over the section (Love, Mathematical Theory of Elasticity, section 87; I_z the
- * integral of z^2). The load that a force along `direction` at `point` (body frame) of the side is
- * to the plane 0 (along y) or 1 (along z); body completed. None by Euler and Bernoulli's theory,
- * which is the textbook's, of rigid sections, and in strips, which bend across as plates do. */
+ * integral of z^2). The load on the plane 0 (along y) or 1 (along z) of a completed body due to
+ * a force along `direction` at `point` (body frame) of the side. Zero for Euler-Bernoulli with
+ * its rigid sections and for strips, which bend across as plates do. */
 struct beam_load beam_side_load(const struct body *body, int plane, const double point[3],
                                 const double direction[3]);
 
-/* What a point of the side gives way beyond its half-space and the bar's own compliance there (that
- * of beam_side_load and of twist), m/N; negative as a rule. */
+/* Compliance of a point of the side beyond its half-space's and the bar's own there (that of
+ * beam_side_load and of twist), m/N; usually negative. */
 double beam_side_compliance(const struct body *body, const double point[3],
                             const double outward[3]);
 

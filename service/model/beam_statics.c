@@ -170,8 +170,8 @@ double beam_compliance(const struct beam_plane *plane, const struct beam_load *i
  * (docs/accuracy.md). */
 static const double WINDOW = 0.7;
 
-/* What remains of the static compliance under a point force on a mesh of the bar (its half-space
- * taken off), times E and the depth of the section h: it depends neither on the length nor on the
+/* The remainder of the static compliance under a point force on a mesh of the bar (its half-space
+ * taken off), times E and the depth h of the section: it depends neither on the length nor on the
  * place along it, but within half a depth of an end. A fit to 660 solutions for breadths of 0.4 to
  * 2.5 depths and Poisson's ratios of 0 to 0.48, with eta the distance from the axis over half the
  * breadth, up to 0.85, s = breadth/depth:
@@ -188,14 +188,14 @@ static const double ASIDE[3][3] = {
 static const double EDGES[2][3] = {{0.324, 0.191, -0.079}, {0.098, -0.146, 0.721}};
 static const double BREADTH[2] = {0.4, 2.5};
 static const double FARTHEST = 0.85;
-/* Sections more than so many times as broad as deep bend across their breadth more than along it:
- * plates, whose sides nothing here describes. From the first to the second the terms are let go. */
+/* Sections that are broader than this many depths bend across their breadth more than along it: the
+ * fit does not describe plates. The terms fall to zero from the first ratio to the second. */
 static const double STRIP[2] = {3.0, 5.0};
 /* The same of a round section, h its diameter and a contact of a tenth of its radius; off by 0.02.
  */
 static const double ROUND[3] = {-0.720, -1.43, 1.65};
 
-static double polynomial(const double factors[3], double nu)
+static double poisson_polynomial(const double factors[3], double nu)
 {
     return factors[0] + nu * (factors[1] + nu * factors[2]);
 }
@@ -206,12 +206,12 @@ static double at_breadth(size_t rows, const double table[][3], double s, double 
     double sum = 0.0, power = 1.0 / s;
 
     for (size_t i = 0; i < rows; i++, power *= s)
-        sum += power * polynomial(table[i], nu);
+        sum += power * poisson_polynomial(table[i], nu);
     return sum;
 }
 
-/* How much of them a section keeps for bending along its depth. */
-static double kept(double depth, double breadth)
+/* Factor of these terms for a section: 1 up to the first ratio, 0 from the second. */
+static double strip_factor(double depth, double breadth)
 {
     return fmax(0.0, fmin((STRIP[1] - breadth / depth) / (STRIP[1] - STRIP[0]), 1.0));
 }
@@ -221,7 +221,8 @@ static double larger_side(const struct body *body)
     return body->radius > 0.0 ? 2.0 * body->radius : fmax(body->width, body->height);
 }
 
-/* A held section keeps its outline: from half the window away on it is free to deform. */
+/* A held section keeps its outline: 0 there, 1 from half the window away, where it is free to
+ * deform. */
 static double freed(const struct body *body, double x, double window)
 {
     double share = 1.0;
@@ -240,7 +241,8 @@ struct beam_load beam_side_load(const struct body *body, int plane, const double
     double window = WINDOW * larger_side(body);
     nu *= freed(body, point[0], window);
     if (body->radius == 0.0)
-        nu *= plane == 1 ? kept(body->height, body->width) : kept(body->width, body->height);
+        nu *= plane == 1 ? strip_factor(body->height, body->width)
+                         : strip_factor(body->width, body->height);
 
     return (struct beam_load){
         .curvature = nu * (0.5 * (along * along - across * across - mean) * direction[1 + plane] +
@@ -254,7 +256,7 @@ double beam_side_compliance(const struct body *body, const double point[3], cons
     double nu = fmax(body->material.poisson, 0.0), young = body->material.young;
 
     if (body->radius > 0.0)
-        return polynomial(ROUND, nu) / (young * 2.0 * body->radius);
+        return poisson_polynomial(ROUND, nu) / (young * 2.0 * body->radius);
     bool on_top = fabs(outward[2]) > fabs(outward[1]);
     double depth = on_top ? body->height : body->width;
     double breadth = on_top ? body->width : body->height;
@@ -264,7 +266,7 @@ double beam_side_compliance(const struct body *body, const double point[3], cons
     double local = at_breadth(4, CENTRE, s, nu) + at_breadth(3, ASIDE, s, nu) * square +
                    at_breadth(2, EDGES, s, nu) * 2.0 * square / (1.0 - square);
 
-    return kept(depth, breadth) * local / (young * depth);
+    return strip_factor(depth, breadth) * local / (young * depth);
 }
 
 /* Shear factors. */

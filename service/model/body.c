@@ -14,8 +14,8 @@
 #include "model/key.h"
 #include "model/ritz_store.h"
 
-static enum percuss_status refuse_number(const struct key *key, unsigned number,
-                                         struct fault *fault)
+static enum percuss_status key_refuse_number(const struct key *key, unsigned number,
+                                             struct fault *fault)
 {
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %u: must be %s", key->name, number,
                      key_allowed(key).text);
@@ -33,12 +33,12 @@ static enum percuss_status check_sizes(const struct key *key, const double sizes
     return status;
 }
 
-/* What stands in one field; words are checked as numbers, as a program may set them. */
+/* Checks the value of one field; words are checked as numbers because a program may set them. */
 static enum percuss_status check_key(const struct key *key, const void *field, struct fault *fault)
 {
     const double *number = field;
     const unsigned *choice = field;
-    /* numbers by their limits; none stated is good where it may be absent */
+    /* numbers by their limits; an optional one may be absent */
     switch (key->type) {
     case KEY_NUMBER:
     case KEY_DAMPING:
@@ -48,16 +48,16 @@ static enum percuss_status check_key(const struct key *key, const void *field, s
     case KEY_NUMBERS:
         return check_sizes(key, number, fault);
     case KEY_WHOLE:
-        return *choice <= key->limit->high ? PERCUSS_OK : refuse_number(key, *choice, fault);
-    /* words by their number */
+        return *choice <= key->limit->high ? PERCUSS_OK : key_refuse_number(key, *choice, fault);
+    /* words by their index */
     case KEY_WORD:
     case KEY_ENDS:
         for (int i = 0; i < (key->type == KEY_ENDS ? 2 : 1); i++)
             if (choice[i] >= key->word_count || !key->words[choice[i]])
-                return refuse_number(key, choice[i], fault);
+                return key_refuse_number(key, choice[i], fault);
         return PERCUSS_OK;
     case KEY_SHEAR:
-        return *choice <= SHEAR_NUMBER ? PERCUSS_OK : refuse_number(key, *choice, fault);
+        return *choice <= SHEAR_NUMBER ? PERCUSS_OK : key_refuse_number(key, *choice, fault);
     default:
         return PERCUSS_OK;
     }
@@ -70,8 +70,8 @@ static enum percuss_status check_material(const struct body *body, struct fault 
     return status ? fault_set(fault, status, "material.%s", inner.text) : PERCUSS_OK;
 }
 
-/* What a catalogue states of it, its material included. */
-static enum percuss_status check(const struct body *body, struct fault *fault)
+/* Checks all that a catalogue states of a body, its material included. */
+static enum percuss_status body_check(const struct body *body, struct fault *fault)
 {
     const struct body_kind *kind = body->kind;
     bool ends = false;
@@ -89,7 +89,7 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
 
 enum percuss_status body_complete(struct body *body, struct fault *fault)
 {
-    enum percuss_status status = check(body, fault);
+    enum percuss_status status = body_check(body, fault);
     if (status)
         return status;
     body->area = 0.0;
@@ -206,7 +206,7 @@ void body_set_free(struct body_set *set)
 
 /* Bodies that differ from the catalogue's in some parameters. */
 
-/* Where the body holds it; NULL: a body of this shape has no such parameter. */
+/* The member of a parameter; NULL: a body of this shape has no such parameter. */
 static double *find_parameter(struct body *body, unsigned parameter)
 {
     /* of the material: every body has them */

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A kind of body: what the solver asks of a body, whatever its shape. Each kind is one constant in
- * a file of its own, kind_*.c, and a line in the list at the end. */
+/* A kind of body: the operations that the solver needs of a body of any shape. Each kind is one
+ * constant in a file of its own, kind_*.c, and a line in the list at the end. */
 #ifndef PERCUSS_MODEL_BODY_KIND_H
 #define PERCUSS_MODEL_BODY_KIND_H
 
@@ -26,7 +26,7 @@ enum { BODY_MOST_FACES = 6 };
 /* Most families of modes of a body. */
 enum { BODY_MOST_FAMILIES = 4 };
 
-/* What closed forms and axisymmetric meshes can take a body for. */
+/* The shape that stands for a body in closed forms and axisymmetric meshes. */
 enum solid_form { SOLID_NONE, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
 struct solid {
     enum solid_form form;
@@ -37,31 +37,30 @@ struct solid {
     bool approximate;      /* of the same section, but not round */
 };
 
-/* A family of modes: waves of one sort of a body, whose modes are told apart by a number from the
- * lowest up. What a kind of body (body_kind.h) says of each of its families. */
-
-/* Modes of one family of one body. */
+/* A family of modes: waves of one type of a body, numbered from the lowest mode up. Here the modes
+ * of one body. */
 struct modal_family {
-    size_t family; /* the body's, of its kind's list */
+    size_t family; /* index in its kind's list */
     size_t count;
     double *omega;      /* [count], ascending, rad/s */
     unsigned char *odd; /* [count]: shape odd about the middle; all 0 unless supports are alike */
-    void *shapes;       /* [count], what else the family keeps of them; NULL: nothing */
-    size_t known;       /* so many are there before the search, which may begin behind them */
-    void *walk;         /* where it got to, then; NULL: nothing is kept of that */
+    void *shapes;       /* [count], further data of the family; NULL: none */
+    size_t known;       /* modes that `find` has already; it may continue after them */
+    void *walk;         /* state from which the search continues; NULL: none */
 };
 
+/* The operations of a family. */
 struct mode_family {
-    /* Slow transverse waves: a body hit so comes back, and sub-impacts follow each other. */
+    /* Slow transverse waves: the body comes back to the contact, and sub-impacts follow. */
     bool bends;
 
-    /* It may do so in some places: where slow modes take enough of a blow. */
+    /* Sub-impacts may follow at some places: where slow modes take enough of the impact. */
     bool returns;
 
-    size_t shape_size; /* bytes of modal_family's shapes, each */
+    size_t shape_size; /* bytes of a mode in modal_family's shapes */
     size_t walk_size;  /* and of its walk */
 
-    /* Fills in the modes; those that are known are there already. */
+    /* Fills in the modes; the first `known` ones are there already. */
     void (*find)(const struct body *body, struct modal_family *modes);
 
     /* Displacement of the modes which[0 .. count - 1] at a load, along it, for unit modal
@@ -74,13 +73,13 @@ struct mode_family {
     double (*compliance)(const struct body *body, size_t family, const struct family_load *i,
                          const struct family_load *j);
 
-    /* How many modes there are; NULL: any number. `find` leaves in modes->omega[modes->count] a
-     * frequency that those which are left out do not go below. */
+    /* Number of modes; NULL: any. `find` sets modes->omega[modes->count] to a lower bound of the
+     * omitted modes' frequencies. */
     size_t (*most)(const struct body *body);
 
-    /* What the modes from `first` on do to a load, as a compliance at the frequency of that one
-     * with their inertia, m/N: omega^2 sum participation^2 / omega_k^4. NULL: what the modes before
-     * leave of the static compliance. */
+    /* Compliance (m/N) that stands for the modes from `first` on: at the frequency of that mode it
+     * has their inertia, omega^2 sum participation^2 / omega_k^4. NULL: the static compliance less
+     * that of the modes before. */
     double (*beyond)(const struct body *body, const struct modal_family *modes, size_t first,
                      const struct family_load *load);
 
@@ -96,7 +95,7 @@ struct body_description {
     char text[256];
 };
 
-/* One more thing to say, after a comma; what does not fit is cut. */
+/* Adds a phrase after a comma; text beyond the buffer is cut. */
 void describe_add(struct body_description *description, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -105,37 +104,39 @@ void describe_extents(struct body_description *description, double x, double y, 
 struct body_kind {
     const char *name; /* in the catalogue, on the wire, in messages */
 
-    /* What a catalogue states of such a body besides shape and material. */
+    /* Its keys in a catalogue besides shape and material. */
     const struct key *keys;
     size_t key_count;
 
     bool own_material; /* a file brings it: the catalogue need not name one */
 
-    /* What no single key's limit tells; NULL: nothing. PERCUSS_OK or PERCUSS_BAD_REQUEST. */
+    /* Checks several keys together; NULL: no such check. PERCUSS_OK or PERCUSS_BAD_REQUEST. */
     enum percuss_status (*check)(const struct body *body, struct fault *fault);
 
-    /* Mass, inertia and what else follows from the dimensions, which are checked. */
+    /* Computes mass, inertia and all else that follows from the dimensions, which are checked. */
     enum percuss_status (*complete)(struct body *body, struct fault *fault);
 
     /* See body_smallest_radius. */
     double (*smallest_radius)(const struct body *body);
 
-    /* The pieces of the surface near a point (body frame); their number. */
+    /* Writes the pieces of the surface near a point (body frame, see site.h); returns their number.
+     */
     int (*faces)(const struct body *body, const double point[3], struct face *faces);
 
-    /* Why no model covers a site that the surface has; NULL: one does. NULL: all are. */
+    /* Returns why no model covers a site of the surface, or NULL. The operation is NULL where
+     * models cover all sites. */
     const char *(*why_not)(const struct body *body, const struct site *site);
 
-    /* The box or cylinder whose vibration is Ritz's (ritz.h), made when a scene asks for it; false:
-     * beyond what that reaches. NULL: no such body. */
+    /* The box or cylinder of its vibration by Ritz's method (ritz.h), which is computed when a
+     * scene asks for it; false: beyond the reach of that. NULL: no such body. */
     bool (*box)(const struct body *body, struct ritz_shape *shape);
 
     /* Its families of modes; none: it is rigid. */
     const struct mode_family *const *families;
     size_t family_count;
 
-    /* What one newton along `direction` (body frame) at a site does to each family; NULL: it has
-     * none. */
+    /* The load on each family of one newton along `direction` (body frame) at a site; NULL: no
+     * family. */
     void (*load)(const struct body *body, const struct site *site, const double direction[3],
                  struct site_load *load);
 

@@ -27,10 +27,10 @@ struct boussinesq3 {
 void boussinesq3_field(const struct boussinesq3 *load, const double x[3], double displacement[3],
                        double stress[6]);
 
-/* Stress of the part that the reach adds, alone; 0 where it is infinite. */
+/* Stress that the reach adds; 0 where it is infinite. */
 void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3], double stress[6]);
 
-/* What the reach adds to the displacement of the point itself along the load, m/N. */
+/* The part that the reach adds to the displacement of the loaded point along the load, m/N. */
 double boussinesq3_added_displacement(const struct boussinesq3 *load);
 
 /* t = s n */

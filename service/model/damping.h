@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Damping of a body's modes: one ratio for all, or of a mesh one of each. Those are kept as shares
- * of the largest, so that who varies a body's damping scales all of them: of the modes from the
- * lowest up, the last one of all others. */
+/* Damping of a body's modes: one ratio for all, or for a mesh a list from the lowest mode up, the
+ * last ratio for all further modes. A list is stored as shares of its largest ratio, so that a
+ * variation of the damping scales all of them. */
 #ifndef PERCUSS_MODEL_DAMPING_H
 #define PERCUSS_MODEL_DAMPING_H
 

@@ -133,26 +133,21 @@ bool facet_is_inside(int count, double u, double v, double margin)
     return fabs(u) <= 1.0 + margin && fabs(v) <= 1.0 + margin;
 }
 
-static double control(double from, double middle, double to)
-{
-    return 2.0 * middle - 0.5 * (from + to);
-}
-
 double facet_lowest(int count, const double *h)
 {
     int corners = count == 6 ? 3 : 4;
     double edge[4];
     double lowest = INFINITY;
     for (int i = 0; i < corners; i++) {
-        edge[i] = control(h[i], h[corners + i], h[(i + 1) % corners]);
+        edge[i] = facet_control(h[i], h[corners + i], h[(i + 1) % corners]);
         lowest = fmin(lowest, fmin(h[i], edge[i]));
     }
     if (corners == 3)
         return lowest;
-    /* without a middle node: what the others make of it */
+    /* without a middle node: interpolated from the others */
     double middle =
         count == 9 ? h[8] : 0.5 * (h[4] + h[5] + h[6] + h[7]) - 0.25 * (h[0] + h[1] + h[2] + h[3]);
-    return fmin(lowest, control(edge[0], control(h[7], middle, h[5]), edge[2]));
+    return fmin(lowest, facet_control(edge[0], facet_control(h[7], middle, h[5]), edge[2]));
 }
 
 static double distance_at(int count, const double (*points)[3], const double p[3], double u,

@@ -26,16 +26,22 @@ void facet_shape(int count, double u, double v, double *n, double *du, double *d
 /* Local coordinates of a node. */
 void facet_node(int count, int node, double *u, double *v);
 
-/* Point and the vector du x dv, which points outwards and is as long as the face's area grows by
- * du dv. Either may be NULL. */
+/* Point, and the vector x_u x x_v: outward, of the length dA/(du dv). Either may be NULL. */
 void facet_place(int count, const double (*points)[3], double u, double v, double point[3],
                  double area[3]);
 
 /* Whether it is on the face, or beyond its edges by no more than `margin`. */
 bool facet_is_inside(int count, double u, double v, double margin);
 
-/* A bound below what a function takes on the face that has the values h at its nodes: the lowest of
- * its control values (Bernstein's form). */
+/* The middle control value of the parabola with these values at both ends and in the middle
+ * (Bernstein's form): it stays between the control values. */
+static inline double facet_control(double from, double middle, double to)
+{
+    return 2.0 * middle - 0.5 * (from + to);
+}
+
+/* A lower bound, on the face, of a function with the values h at the nodes: the lowest of its
+ * control values (Bernstein's form). */
 double facet_lowest(int count, const double *h);
 
 /* The nearest point of the face, by Newton's method. */

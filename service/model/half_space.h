@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a half-space does beyond its static compliance: waves leave through it. */
+/* Radiation of a half-space: waves that leave a contact through it. */
 #ifndef PERCUSS_MODEL_HALF_SPACE_H
 #define PERCUSS_MODEL_HALF_SPACE_H
 

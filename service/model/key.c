@@ -13,7 +13,7 @@ struct growing {
     size_t size, length;
 };
 
-static void grow(struct growing *growing, const char *before, const char *word)
+static void key_grow(struct growing *growing, const char *before, const char *word)
 {
     size_t room = growing->size - growing->length;
     int written = snprintf(growing->text + growing->length, room, "%s%s", before, word);
@@ -26,7 +26,7 @@ static void grow_words(struct growing *growing, const struct key *key)
     for (size_t i = 0; i < key->word_count; i++) {
         if (!key->words[i])
             continue;
-        grow(growing, before, key->words[i]);
+        key_grow(growing, before, key->words[i]);
         before = ", ";
     }
 }
@@ -35,11 +35,11 @@ static void grow_words(struct growing *growing, const struct key *key)
 static void grow_pair(struct growing *growing, const struct key *key)
 {
     const char *loose = key->words[0], *held = key->words[key->word_count - 1];
-    grow(growing, ", or two of them, at -x and at +x: [", held);
-    grow(growing, ", ", loose);
-    grow(growing, "], also written ", held);
-    grow(growing, "-", loose);
-    grow(growing, " or cantilever", "");
+    key_grow(growing, ", or two of them, at -x and at +x: [", held);
+    key_grow(growing, ", ", loose);
+    key_grow(growing, "], also written ", held);
+    key_grow(growing, "-", loose);
+    key_grow(growing, " or cantilever", "");
 }
 
 static void grow_keys(struct growing *growing, const struct key_table *table)
@@ -47,7 +47,7 @@ static void grow_keys(struct growing *growing, const struct key_table *table)
     const char *before = "";
     const struct key *key;
     for (size_t i = 0; (key = key_at(table, i)); i++) {
-        grow(growing, before, key->name);
+        key_grow(growing, before, key->name);
         before = ", ";
     }
 }
@@ -57,7 +57,7 @@ static void grow_kinds(struct growing *growing)
     const char *before = "one of ";
     const struct body_kind *kind;
     for (size_t i = 0; (kind = body_kind_at(i)); i++) {
-        grow(growing, before, kind->name);
+        key_grow(growing, before, kind->name);
         before = ", ";
     }
 }
@@ -86,49 +86,50 @@ static void grow_allowed(struct growing *growing, const struct key *key)
     case KEY_TWICE:
     case KEY_WHOLE:
     case KEY_YIELD:
-        grow(growing, key->type == KEY_YIELD ? "none or " : "", key->limit->text);
+        key_grow(growing, key->type == KEY_YIELD ? "none or " : "", key->limit->text);
         break;
     case KEY_NUMBERS:
-        grow(growing, "a list of three, each ", key->limit->text);
+        key_grow(growing, "a list of three, each ", key->limit->text);
         break;
     case KEY_FLAG:
-        grow(growing, "", "true or false");
+        key_grow(growing, "", "true or false");
         break;
     case KEY_WORD:
-        grow(growing, "one of ", "");
+        key_grow(growing, "one of ", "");
         grow_words(growing, key);
         break;
     case KEY_ENDS:
-        grow(growing, "one of ", "");
+        key_grow(growing, "one of ", "");
         grow_words(growing, key);
         grow_pair(growing, key);
         break;
     case KEY_SHEAR:
         grow_words(growing, key);
-        grow(growing, " or ", key->limit->text);
+        key_grow(growing, " or ", key->limit->text);
         break;
     case KEY_DAMPING:
-        grow(growing, key->limit->text,
-             ", or a list of such, of the modes from the lowest up, the last one of all others");
+        key_grow(
+            growing, key->limit->text,
+            ", or a list of such, of the modes from the lowest up, the last one of all others");
         break;
     case KEY_KIND:
         grow_kinds(growing);
         break;
     case KEY_NAME:
-        grow(growing, "", "a name of materials");
+        key_grow(growing, "", "a name of materials");
         break;
     case KEY_SECTION:
-        grow(growing, "a mapping of ", "");
+        key_grow(growing, "a mapping of ", "");
         grow_keys(growing, key->nested);
         break;
     case KEY_TEXT:
-        grow(growing, "", "a name that is not empty");
+        key_grow(growing, "", "a name that is not empty");
         break;
     case KEY_LIST:
-        grow(growing, "", "a list");
+        key_grow(growing, "", "a list");
         break;
     case KEY_CALLER:
-        grow(growing, "", "a mapping of ids");
+        key_grow(growing, "", "a mapping of ids");
         break;
     }
 }
@@ -138,7 +139,7 @@ struct key_text key_allowed(const struct key *key)
     struct key_text allowed = {{0}};
     struct growing growing = {allowed.text, sizeof allowed.text, 0};
     if (key->allowed)
-        grow(&growing, "", key->allowed);
+        key_grow(&growing, "", key->allowed);
     else
         grow_allowed(&growing, key);
     return allowed;

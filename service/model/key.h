@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The keys of a catalogue, as tables: they drive the reading of mappings into structs, the checks
- * of what stands in those, and say in messages what is allowed. */
+/* The keys of a catalogue as tables: they drive the reading of mappings into structs and the checks
+ * of the values, and messages list the allowed values from them. */
 #ifndef PERCUSS_MODEL_KEY_H
 #define PERCUSS_MODEL_KEY_H
 
@@ -13,7 +13,7 @@
 
 enum key_type {
     KEY_NUMBER,  /* double within `limit` */
-    KEY_TWICE,   /* twice the double, within `limit`: a diameter of what holds the radius */
+    KEY_TWICE,   /* twice the double, within `limit`: a diameter where the struct has the radius */
     KEY_NUMBERS, /* list of three of them */
     KEY_WHOLE,   /* unsigned, 1 .. limit->high; 0: absent */
     KEY_FLAG,    /* bool */
@@ -39,11 +39,11 @@ struct key {
     const char *const *words;
     size_t word_count; /* NULL among the words: a number without a word */
     const struct key_table *nested;
-    double absent;          /* KEY_NUMBER, not required: its value where the key is */
-    const char *instead[2]; /* keys one of which must stand where this one does not; NULL: none */
-    const char
-        *allowed; /* of what the caller reads, in words that follow "must be"; NULL: by type */
-    const char *otherwise; /* what holds where the key is absent; NULL: it is required */
+    double absent;          /* KEY_NUMBER, not required: the value where the key is absent */
+    const char *instead[2]; /* where the key is absent one of these must be present; NULL: none */
+    const char *allowed; /* of a value that the caller reads, in words that follow "must be"; NULL:
+                            by type */
+    const char *otherwise; /* the value where the key is absent; NULL: it is required */
     const char *meaning;   /* for the reference, docs/catalogue.md */
 };
 
@@ -58,7 +58,7 @@ struct key_table {
 #define KEY_WORDS(array)        .words = array, .word_count = sizeof array / sizeof *array
 #define KEY_OF(of, member)      .offset = offsetof(struct of, member)
 
-/* What a key's value may be, in words that follow "must be". */
+/* The allowed values of a key, in words that follow "must be". */
 struct key_text {
     char text[400];
 };

@@ -59,7 +59,7 @@ static const struct key keys[] = {
      KEY_SAYS("as many as the tolerance asks for", "fixed number of modes")},
 };
 
-/* A beam in the catalogue whose vibration is a block's. */
+/* A beam of the catalogue with the vibration of a block. */
 static const struct body_kind strip_kind;
 
 static bool is_round(const struct body *body)
@@ -67,7 +67,7 @@ static bool is_round(const struct body *body)
     return body->radius > 0.0;
 }
 
-static enum percuss_status check(const struct body *body, struct fault *fault)
+static enum percuss_status beam_check(const struct body *body, struct fault *fault)
 {
     if (is_round(body) && (body->width != 0.0 || body->height != 0.0))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -162,8 +162,9 @@ static void shear_factors(struct body *body)
     }
 }
 
-/* A strip bends across its breadth, too, as a block does: its vibration is a block's, unless a
- * theory of beams is asked for. A block's end has no pin. */
+/* A strip bends across its breadth too: its vibration is computed as a block's, unless the
+ * catalogue states a theory of beams or a shear factor, or pins an end, which a block cannot have.
+ */
 static void choose_kind(struct body *body)
 {
     double w = body->width, h = body->height;
@@ -179,7 +180,7 @@ static void choose_kind(struct body *body)
     body->kind = strip && mesh_family_box(body, &shape) ? &strip_kind : &beam_kind;
 }
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status beam_complete(struct body *body, struct fault *fault)
 {
     complete_section(body);
     choose_kind(body);
@@ -198,13 +199,13 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
                      shear_rules[body->shear_rule], body->material.poisson, factor[0], factor[1]);
 }
 
-static double smallest_radius(const struct body *body)
+static double beam_smallest_radius(const struct body *body)
 {
     double across = is_round(body) ? body->radius : 0.5 * fmin(body->width, body->height);
     return fmin(fmin(across, body->tip_radius), 0.5 * body->length);
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int beam_faces(const struct body *body, const double p[3], struct face *faces)
 {
     const double half[3] = {0.5 * body->length, 0.5 * body->width, 0.5 * body->height};
     if (body->kind->box)
@@ -223,12 +224,12 @@ static const struct mode_family *const families[] = {
     [BAR_TWIST] = &beam_twist_family,
 };
 
-/* A section turning by psi moves a point at the height y and by x in front of it by -psi y along
- * the axis and by psi x across it: so a cap's force acts on the section that the cap stands on,
- * with its lever. A hit on the side of a rectangular section twists it about the axis; without
+/* A section that turns by psi moves a point at the height y and at x in front of it by -psi y along
+ * the axis and by psi x across it: so the force on a cap acts on the section under the cap, with
+ * its lever arm. A hit on the side of a rectangular section twists it about the axis; without
  * friction one on a round section or on an end does not. */
-static void load_families(const struct body *body, const struct site *site,
-                          const double direction[3], struct site_load *load)
+static void beam_load(const struct body *body, const struct site *site, const double direction[3],
+                      struct site_load *load)
 {
     bool on_end = site->face == SITE_END;
     double x = bar_place(body, site);
@@ -257,19 +258,19 @@ static void load_families(const struct body *body, const struct site *site,
 }
 
 /* Round and square sections bend alike in all planes through the axis. */
-static bool alike(const struct body *body, size_t *first)
+static bool beam_alike(const struct body *body, size_t *first)
 {
     *first = BAR_BENDING_Y;
     return body->second_moment[0] == body->second_moment[1] &&
            (body->theory != THEORY_TIMOSHENKO || body->shear_factor[0] == body->shear_factor[1]);
 }
 
-static const char *theory(const struct body *body)
+static const char *beam_theory_name(const struct body *body)
 {
     return theories[body->theory];
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void beam_describe(const struct body *body, struct body_description *description)
 {
     describe_add(description, "length %g m", body->length);
     if (is_round(body)) {
@@ -294,16 +295,16 @@ static void describe(const struct body *body, struct body_description *descripti
 
 /* A beam of the catalogue, whichever theory its vibration has. */
 #define BEAM_MEMBERS                                                                               \
-    .name = "beam", .keys = keys, .key_count = sizeof keys / sizeof *keys, .check = check,         \
-    .complete = complete, .smallest_radius = smallest_radius, .faces = find_faces,                 \
-    .why_not = bar_why_not, .describe = describe
+    .name = "beam", .keys = keys, .key_count = sizeof keys / sizeof *keys, .check = beam_check,    \
+    .complete = beam_complete, .smallest_radius = beam_smallest_radius, .faces = beam_faces,       \
+    .why_not = bar_why_not, .describe = beam_describe
 
 const struct body_kind beam_kind = {
     .families = families,
     .family_count = sizeof families / sizeof *families,
-    .load = load_families,
-    .alike = alike,
-    .theory = theory,
+    .load = beam_load,
+    .alike = beam_alike,
+    .theory = beam_theory_name,
     BEAM_MEMBERS,
 };
 

@@ -33,7 +33,7 @@ static bool is_held(const struct body *body)
 }
 
 /* A held block moves by its vibration alone. */
-static enum percuss_status check(const struct body *body, struct fault *fault)
+static enum percuss_status block_check(const struct body *body, struct fault *fault)
 {
     struct ritz_shape shape;
     if (!is_held(body))
@@ -49,7 +49,7 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status block_complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     const double *size = body->size;
@@ -61,19 +61,19 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-static double smallest_radius(const struct body *body)
+static double block_smallest_radius(const struct body *body)
 {
     return 0.5 * fmin(body->size[0], fmin(body->size[1], body->size[2]));
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int block_faces(const struct body *body, const double p[3], struct face *faces)
 {
     const double half[3] = {0.5 * body->size[0], 0.5 * body->size[1], 0.5 * body->size[2]};
     return face_box(half, p, faces);
 }
 
 /* Hit on its faces along z. */
-static struct solid solid(const struct body *body)
+static struct solid block_solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_CYLINDER,
                           .axis = 2,
@@ -84,7 +84,7 @@ static struct solid solid(const struct body *body)
                           .approximate = true};
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void block_describe(const struct body *body, struct body_description *description)
 {
     const double *size = body->size;
     describe_extents(description, 0.5 * size[0], 0.5 * size[1], 0.5 * size[2]);
@@ -103,13 +103,13 @@ const struct body_kind block_kind = {
     .name = "block",
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
-    .check = check,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
+    .check = block_check,
+    .complete = block_complete,
+    .smallest_radius = block_smallest_radius,
+    .faces = block_faces,
     .why_not = bar_why_not,
-    .solid = solid,
+    .solid = block_solid,
     .box = mesh_family_box,
     BOX_VIBRATION,
-    .describe = describe,
+    .describe = block_describe,
 };

@@ -19,31 +19,31 @@ static const struct key keys[] = {
     BOX_VIBRATION_KEYS,
 };
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status cylinder_complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     bar_complete_round(body);
     return PERCUSS_OK;
 }
 
-static double smallest_radius(const struct body *body)
+static double cylinder_smallest_radius(const struct body *body)
 {
     return fmin(body->radius, 0.5 * body->length);
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int cylinder_faces(const struct body *body, const double p[3], struct face *faces)
 {
     return bar_round_faces(body, INFINITY, p, faces);
 }
 
-static bool box(const struct body *body, struct ritz_shape *shape)
+static bool cylinder_box(const struct body *body, struct ritz_shape *shape)
 {
     double diameter = 2.0 * body->radius;
     *shape = (struct ritz_shape){.side = {body->length, diameter, diameter}, .round = true};
     return ritz_reaches(shape);
 }
 
-static struct solid solid(const struct body *body)
+static struct solid cylinder_solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_CYLINDER,
                           .radius = body->radius,
@@ -52,7 +52,7 @@ static struct solid solid(const struct body *body)
                           .tip_radius = INFINITY};
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void cylinder_describe(const struct body *body, struct body_description *description)
 {
     describe_extents(description, 0.5 * body->length, body->radius, body->radius);
     describe_add(description, "length %g m", body->length);
@@ -68,11 +68,11 @@ const struct body_kind cylinder_kind = {
     .name = "cylinder",
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .solid = solid,
-    .box = box,
+    .complete = cylinder_complete,
+    .smallest_radius = cylinder_smallest_radius,
+    .faces = cylinder_faces,
+    .solid = cylinder_solid,
+    .box = cylinder_box,
     BOX_VIBRATION,
-    .describe = describe,
+    .describe = cylinder_describe,
 };

@@ -7,7 +7,7 @@
 #include "model/body_kind.h"
 #include "model/site.h"
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status half_space_complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     body->mass = INFINITY;
@@ -16,26 +16,26 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-static double smallest_radius(const struct body *body)
+static double half_space_smallest_radius(const struct body *body)
 {
     (void)body;
     return INFINITY;
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int half_space_faces(const struct body *body, const double p[3], struct face *faces)
 {
     (void)body;
     faces[0] = face_plane(2, 1.0, 0.0, p);
     return 1;
 }
 
-static struct solid solid(const struct body *body)
+static struct solid half_space_solid(const struct body *body)
 {
     (void)body;
     return (struct solid){.form = SOLID_HALF_SPACE, .axis = 2};
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void half_space_describe(const struct body *body, struct body_description *description)
 {
     (void)body;
     describe_add(description, "fills z <= 0, immovable");
@@ -43,9 +43,9 @@ static void describe(const struct body *body, struct body_description *descripti
 
 const struct body_kind half_space_kind = {
     .name = "half-space",
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .solid = solid,
-    .describe = describe,
+    .complete = half_space_complete,
+    .smallest_radius = half_space_smallest_radius,
+    .faces = half_space_faces,
+    .solid = half_space_solid,
+    .describe = half_space_describe,
 };

@@ -16,27 +16,28 @@
 #include "model/site.h"
 #include "model/vector.h"
 
-/* Poisson's ratios that are one but for the digits of a catalogue. */
+/* Poisson's ratios that differ by less are equal but for the digits of a catalogue. */
 static const double SAME_POISSON = 1e-9;
-/* How far from a named place what is declared of it holds, in smallest radii. */
+/* The declared normal and curvature of a named site hold within this distance of it, in smallest
+ * radii. */
 static const double NAMED = 0.1;
-/* How far off the surface it may be declared: half an element, as what is drawn round is off its
- * straight-sided mesh, but no farther than half the way to where the other side may be nearer. */
+/* Largest distance from the surface at which a named site may be declared: half an element, as a
+ * curved surface is off its straight-sided mesh, but at most half of the smallest radius, beyond
+ * which another side may be nearer. */
 static const double NAMED_ELEMENT = 0.5;
 static const double NAMED_MOST = 0.5;
-/* How far from its edge a point looks for faces beside, in smallest radii: more than a point may
- * lie off the surface (solve/placement.c). */
+/* Near an edge, other patches are searched within this distance, in smallest radii: more than a
+ * point may lie off the surface (solve/placement.c). */
 static const double BESIDE = 0.15;
-/* Doubt of a normal from which on nothing is known of the surface: as far as a stated normal may be
- * off it. */
+/* Doubt of a normal beyond which the surface counts as unknown: the largest allowed angle between
+ * it and a stated normal. */
 static const double MOST_DOUBT = SITE_MAX_ANGLE_DEGREES * M_PI / 180.0;
 
-/* How far the chords that stand for a curved edge are off it at most, in elements; and how far a
- * point lies beside its foot, in smallest radii, to show that it is beyond the edge. */
+/* Largest distance of a curved edge from its chords, in elements; and the distance of a point from
+ * its foot along the surface, in smallest radii, from which it is beyond the edge. */
 static const double OVER = 0.1;
 static const double ASIDE = 0.01;
-/* What is declared of a site may differ from the fit by as much before it is said: degrees, parts.
- */
+/* A declared normal or curvature that differs more from the fit is remarked: degrees, parts. */
 static const double MUCH_ASKEW = 2.0;
 static const double MUCH_BENT = 0.1;
 
@@ -64,7 +65,7 @@ static const struct key keys[] = {
      KEY_SAYS("it is free", "what of a mesh is held")},
 };
 
-static enum percuss_status check(const struct body *body, struct fault *fault)
+static enum percuss_status mesh_kind_check(const struct body *body, struct fault *fault)
 {
     if (!body->mesh)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "file: must be a body file of percuss-reduce");
@@ -81,13 +82,13 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-/* Mesh's frame: the file's own place of a body's point. */
+/* A body's point at the size of the file. */
 static void to_mesh(const struct body *body, const double point[3], double p[3])
 {
     scale3(1.0 / body->scale, point, p);
 }
 
-/* How far what is declared of a site differs from the surface's own, where that is much. */
+/* Remarks a declared normal or curvature that differs much from the surface's own. */
 static void compare_site(const struct mesh_spot *spot, struct body_site *site)
 {
     double across[3];
@@ -108,8 +109,8 @@ static void compare_site(const struct mesh_spot *spot, struct body_site *site)
                  size);
 }
 
-/* How far off the surface a named site may be declared: beyond a sharp edge no farther than points
- * of contacts may. */
+/* Largest distance from the surface at which a named site may be declared: beyond a sharp edge that
+ * of a contact's point. */
 static double allowed_off(const struct mesh_body *mesh, const struct mesh_place *place)
 {
     double half = mesh->volume / mesh->area;
@@ -119,7 +120,7 @@ static double allowed_off(const struct mesh_body *mesh, const struct mesh_place 
                     : fmax(NAMED * half, fmin(NAMED_ELEMENT * element, NAMED_MOST * half));
 }
 
-/* Onto the surface from farther off than a contact's point may be. */
+/* Moves a site onto the surface if it is farther off than a contact's point may be. */
 static void move_site(const struct mesh_body *mesh, const struct mesh_place *place,
                       struct body_site *site)
 {
@@ -131,7 +132,7 @@ static void move_site(const struct mesh_body *mesh, const struct mesh_place *pla
         site->point[k] = (place->point[k] + mesh->centre[k]) / mesh->unit;
 }
 
-/* Finds the face of a named site, and what is not declared of it. */
+/* Finds the face of a named site, and its normal and curvature if they are not declared. */
 static enum percuss_status complete_site(const struct body *body, struct body_site *site,
                                          struct fault *fault)
 {
@@ -150,7 +151,7 @@ static enum percuss_status complete_site(const struct body *body, struct body_si
                          "sites.%s.point: lies %.3g m off the surface: at most %.3g m is allowed; "
                          "points are in the mesh's own frame and unit (%g m)",
                          site->name, place.distance, allowed, body->mesh->unit);
-    /* what the mesh says there, where the site says nothing */
+    /* the surface's own, where the site declares none */
     struct mesh_spot spot = mesh_surface_at(body->mesh, place.face, place.u, place.v);
     site->face = place.face;
     if (!site->has_normal)
@@ -163,7 +164,7 @@ static enum percuss_status complete_site(const struct body *body, struct body_si
     return PERCUSS_OK;
 }
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status mesh_kind_complete(struct body *body, struct fault *fault)
 {
     enum percuss_status status = PERCUSS_OK;
     const struct mesh_body *mesh = body->mesh;
@@ -186,7 +187,7 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
 }
 
 /* Half the thickness of a plate. */
-static double smallest_radius(const struct body *body)
+static double mesh_kind_smallest_radius(const struct body *body)
 {
     return body->scale * body->mesh->volume / body->mesh->area;
 }
@@ -203,7 +204,7 @@ static const struct body_site *site_near(const struct body *body, const struct m
         for (int k = 0; k < 3; k++)
             apart[k] = point[k] - body->scale * place->point[k];
         if (faces[site->face].patch == faces[place->face].patch &&
-            norm3(apart) <= NAMED * smallest_radius(body))
+            norm3(apart) <= NAMED * mesh_kind_smallest_radius(body))
             return site;
     }
     return NULL;
@@ -216,7 +217,7 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
     const struct body_site *site = site_near(body, place);
     double away[3];
     struct face face = {.kind = SITE_ROUND};
-    /* what is declared there wins */
+    /* declared values take precedence */
     bool normal = site && site->has_normal, curvature = site && site->has_curvature;
     memcpy(face.outward, normal ? site->normal : spot.normal, sizeof face.outward);
     memcpy(face.curvature, curvature ? site->curvature : spot.curvature, sizeof face.curvature);
@@ -231,7 +232,7 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
     double element = body->scale * mesh_surface_face_size(body->mesh, place->face);
     /* from an inner foot the point is along the normal, but for kinks between faces */
     bool near_rim = edge < OVER * element;
-    face.beyond = near_rim && aside > ASIDE * smallest_radius(body) ? aside : -edge;
+    face.beyond = near_rim && aside > ASIDE * mesh_kind_smallest_radius(body) ? aside : -edge;
     face.spot = (struct face_spot){
         .on_mesh = true,
         .facet = place->face,
@@ -249,7 +250,7 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
     return face;
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int mesh_kind_faces(const struct body *body, const double p[3], struct face *faces)
 {
     struct mesh_place places[BODY_MOST_FACES];
     double point[3];
@@ -261,7 +262,7 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return count;
 }
 
-static const char *why_not(const struct body *body, const struct site *site)
+static const char *mesh_kind_why_not(const struct body *body, const struct site *site)
 {
     if (site->spot.doubt > MOST_DOUBT)
         return "the surface's normal and curvature are not known there within 5 degrees: declare a "
@@ -277,8 +278,8 @@ static const char *why_not(const struct body *body, const struct site *site)
            "no longer than the wall is thick or the gap wide";
 }
 
-static void load_family(const struct body *body, const struct site *site, const double direction[3],
-                        struct site_load *load)
+static void mesh_kind_load(const struct body *body, const struct site *site,
+                           const double direction[3], struct site_load *load)
 {
     struct family_load *family = &load->family[0];
     const struct mesh_body_face *face = &body->mesh->faces[site->spot.facet];
@@ -293,8 +294,8 @@ static void load_family(const struct body *body, const struct site *site, const 
     to_mesh(body, site->point, family->mesh.point);
 }
 
-/* Moduli and densities of all by the factors of the first. */
-static struct material material_at(const struct body *body, const struct site *site)
+/* Moduli and densities of all materials scale as those of the first. */
+static struct material mesh_kind_material_at(const struct body *body, const struct site *site)
 {
     unsigned which = site->spot.on_mesh ? site->spot.material : 0;
     if (which == 0)
@@ -306,7 +307,7 @@ static struct material material_at(const struct body *body, const struct site *s
     return material;
 }
 
-static const char *theory(const struct body *body)
+static const char *mesh_kind_theory_name(const struct body *body)
 {
     return body->mesh->mode_count > 0 ? "mesh" : "rigid";
 }
@@ -325,7 +326,7 @@ static void describe_moved(const struct body *body, struct body_description *des
                      count > 1 ? "s" : "", farthest);
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void mesh_kind_describe(const struct body *body, struct body_description *description)
 {
     const struct mesh_body *mesh = body->mesh;
     double half[3];
@@ -367,15 +368,15 @@ const struct body_kind mesh_kind = {
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
     .own_material = true,
-    .check = check,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .why_not = why_not,
+    .check = mesh_kind_check,
+    .complete = mesh_kind_complete,
+    .smallest_radius = mesh_kind_smallest_radius,
+    .faces = mesh_kind_faces,
+    .why_not = mesh_kind_why_not,
     .families = mesh_family_alone,
     .family_count = 1,
-    .load = load_family,
-    .material_at = material_at,
-    .theory = theory,
-    .describe = describe,
+    .load = mesh_kind_load,
+    .material_at = mesh_kind_material_at,
+    .theory = mesh_kind_theory_name,
+    .describe = mesh_kind_describe,
 };

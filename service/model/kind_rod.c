@@ -35,7 +35,7 @@ static const struct mode_family *const families[] = {
     [BAR_LONGITUDINAL] = &longitudinal_family,
 };
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status rod_complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     bar_complete_round(body);
@@ -44,19 +44,19 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-static double smallest_radius(const struct body *body)
+static double rod_smallest_radius(const struct body *body)
 {
     return fmin(fmin(body->radius, body->tip_radius), 0.5 * body->length);
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int rod_faces(const struct body *body, const double p[3], struct face *faces)
 {
     int count = bar_round_faces(body, body->tip_radius, p, faces);
     faces[count - 1].kind = SITE_BEAM_SIDE;
     return count;
 }
 
-static const char *why_not(const struct body *body, const struct site *site)
+static const char *rod_why_not(const struct body *body, const struct site *site)
 {
     if (site->face == SITE_BEAM_SIDE)
         return "a hit on the side bends it, and a rod has longitudinal waves only: declare it as "
@@ -67,13 +67,13 @@ static const char *why_not(const struct body *body, const struct site *site)
     return bar_why_not(body, site);
 }
 
-static void load_families(const struct body *body, const struct site *site,
-                          const double direction[3], struct site_load *load)
+static void rod_load(const struct body *body, const struct site *site, const double direction[3],
+                     struct site_load *load)
 {
     bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
 }
 
-static struct solid solid(const struct body *body)
+static struct solid rod_solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_CYLINDER,
                           .radius = body->radius,
@@ -82,12 +82,12 @@ static struct solid solid(const struct body *body)
                           .tip_radius = body->tip_radius};
 }
 
-static const char *theory(const struct body *body)
+static const char *rod_theory_name(const struct body *body)
 {
     return body->lateral_inertia ? "rayleigh-love" : "rod";
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void rod_describe(const struct body *body, struct body_description *description)
 {
     describe_extents(description, 0.5 * body->length, body->radius, body->radius);
     description->tip_radius = body->tip_radius;
@@ -107,14 +107,14 @@ const struct body_kind rod_kind = {
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
     .check = bar_check_tips,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .why_not = why_not,
+    .complete = rod_complete,
+    .smallest_radius = rod_smallest_radius,
+    .faces = rod_faces,
+    .why_not = rod_why_not,
     .families = families,
     .family_count = sizeof families / sizeof *families,
-    .load = load_families,
-    .solid = solid,
-    .theory = theory,
-    .describe = describe,
+    .load = rod_load,
+    .solid = rod_solid,
+    .theory = rod_theory_name,
+    .describe = rod_describe,
 };

@@ -15,7 +15,7 @@ static const struct key keys[] = {
      KEY_SAYS("radius stands instead", "twice the radius")},
 };
 
-static enum percuss_status complete(struct body *body, struct fault *fault)
+static enum percuss_status sphere_complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     double r = body->radius;
@@ -25,23 +25,23 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
     return PERCUSS_OK;
 }
 
-static double smallest_radius(const struct body *body)
+static double sphere_smallest_radius(const struct body *body)
 {
     return body->radius;
 }
 
-static int find_faces(const struct body *body, const double p[3], struct face *faces)
+static int sphere_faces(const struct body *body, const double p[3], struct face *faces)
 {
     faces[0] = face_ball(0.0, body->radius, p);
     return 1;
 }
 
-static struct solid solid(const struct body *body)
+static struct solid sphere_solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_BALL, .radius = body->radius, .across = body->radius};
 }
 
-static void describe(const struct body *body, struct body_description *description)
+static void sphere_describe(const struct body *body, struct body_description *description)
 {
     describe_extents(description, body->radius, body->radius, body->radius);
     describe_add(description, "radius %g m", body->radius);
@@ -51,9 +51,9 @@ const struct body_kind sphere_kind = {
     .name = "sphere",
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
-    .complete = complete,
-    .smallest_radius = smallest_radius,
-    .faces = find_faces,
-    .solid = solid,
-    .describe = describe,
+    .complete = sphere_complete,
+    .smallest_radius = sphere_smallest_radius,
+    .faces = sphere_faces,
+    .solid = sphere_solid,
+    .describe = sphere_describe,
 };

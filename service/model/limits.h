@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a number describing a body may be: one list for the checks of the model, for the keys of the
- * catalogue and for the words of both. */
+/* Allowed ranges of the numbers that describe a body: one list for the checks of the model, for the
+ * keys of the catalogue and for the messages of both. */
 #ifndef PERCUSS_MODEL_LIMITS_H
 #define PERCUSS_MODEL_LIMITS_H
 
@@ -16,7 +16,7 @@ enum { LIMIT_MODES = 5000 }; /* fixed number of modes of a body, at most */
 struct limit {
     double low, high; /* both finite; allowed themselves unless open */
     bool low_open, high_open;
-    const char *text; /* what is allowed, in words that follow "must be" */
+    const char *text; /* the allowed range, in words that follow "must be" */
     enum quantity quantity;
 };
 

@@ -8,7 +8,7 @@
 
 #include "model/limits.h"
 
-/* What rounding may leave of a tensor's symmetry, and of a unit vector's length in float. */
+/* Rounding of a tensor's symmetry, and of a unit vector's length in float. */
 static const double ASYMMETRY = 1e-6;
 static const double UNIT_LENGTH = 1e-4;
 
@@ -59,7 +59,7 @@ static enum percuss_status check_modes(const struct mesh_body *body, struct faul
 
 static enum percuss_status check_face(const struct mesh_body *body, size_t f, struct fault *fault)
 {
-    /* what the file counts: nodes, material, patch */
+    /* number of nodes, indices of material and patch */
     const struct mesh_body_face *face = &body->faces[f];
     if (face->count != 6 && face->count != 8 && face->count != 9)
         return fault_set(fault, PERCUSS_BAD_REQUEST,

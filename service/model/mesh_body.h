@@ -45,7 +45,7 @@ struct mesh_rim {
 
 struct mesh_body {
     /* provenance */
-    char hash[65];       /* SHA-256 of what it was made from: mesh, materials, supports, settings */
+    char hash[65];       /* SHA-256 of its sources: mesh, materials, supports, settings */
     char source[256];    /* file's name, version of percuss-reduce, date */
     double unit;         /* m of one unit of the mesh's file */
     double centre[3];    /* centre of mass in the mesh's frame, m */
@@ -75,7 +75,7 @@ struct mesh_body {
     double (*site_point)[3], (*site_normal)[3]; /* [site_count] */
     float *between;                             /* [site_count][site_count]; NULL: not computed */
     double near;                                /* m */
-    /* how to find a place on the surface: mesh_surface_prepare makes it of the faces */
+    /* search structures of the surface: mesh_surface_prepare makes them from the faces */
     size_t box_count;
     struct mesh_box *boxes; /* a tree */
     unsigned *order;        /* [face_count]: faces as its leaves have them */
@@ -86,8 +86,8 @@ struct mesh_body {
     double low[3], high[3]; /* extent from the centre of mass, m */
 };
 
-/* Whether what a file says of a body makes sense as a whole: PERCUSS_OK, or PERCUSS_BAD_REQUEST
- * with the dataset and what is allowed. Single numbers are checked by whoever reads them. */
+/* Whether the data of a file are consistent: PERCUSS_OK, or PERCUSS_BAD_REQUEST with the dataset
+ * and the allowed values. The reader of the file checks single numbers. */
 enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *fault);
 
 /* Frees a body and its arrays, all of which came from malloc; NULL is allowed. */

@@ -14,17 +14,17 @@
 #include "model/vector.h"
 
 /* Modes beyond the file's: sum phi^2/omega^4 of an octave falls with the frequency as omega^-p,
- * p = 3 where modes are evenly spaced (bars), 2 for waves in a plate, 1 in a compact solid, whose
- * quickest part is the contact law's own field. With 2 the octaves to come add up to this share of
+ * p = 3 where modes are evenly spaced (bars), 2 for waves in a plate, 1 in a compact solid, where
+ * the contact law has the fastest part. With 2 the octaves to come add up to this share of
  * the last one. */
 static const double TAIL = 1.0 / 3.0;
 static const double OCTAVE = 0.5;
-/* Of a force, what is as little as this does not act (modal_basis.h): shapes are floats. */
+/* Parts of a force as small as this do not act (modal_basis.h): shapes are floats. */
 static const double LEAST_PART = 1e-9;
-/* Modes whose shapes are summed up at once. */
+/* Modes that are summed at once. */
 enum { AT_ONCE = 64 };
 
-/* Of a file's body, or of a box of modulus, density and longest side 1. */
+/* Over a file's body, or over a box of modulus, density and longest side 1. */
 struct mesh_ratio mesh_ratio_of(const struct body *body)
 {
     if (!body->mesh) {
@@ -79,7 +79,7 @@ bool mesh_family_box(const struct body *body, struct ritz_shape *shape)
     return ritz_reaches(shape);
 }
 
-static size_t most(const struct body *body)
+static size_t mesh_family_most(const struct body *body)
 {
     if (!body->ritz && !body->mesh) /* a box that stays rigid */
         return 0;
@@ -94,11 +94,11 @@ static const double *frequencies(const struct body *body)
 }
 
 /* Lengths grow by s, moduli by e, densities by d: omega by sqrt(e/d)/s. */
-static void find(const struct body *body, struct modal_family *modes)
+static void mesh_family_find(const struct body *body, struct modal_family *modes)
 {
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
-    size_t all = most(body);
+    size_t all = mesh_family_most(body);
     const double *omega = frequencies(body);
     if (modes->count > all)
         modes->count = all;
@@ -113,15 +113,15 @@ static void find(const struct body *body, struct modal_family *modes)
 }
 
 /* row += share shape, mode by mode: the same bits for any vector unit. */
-VECTOR_CLONES static void add_row(size_t count, double share, const float *shape, double *row)
+VECTOR_CLONES static void add_shape(size_t count, double share, const float *shape, double *row)
 {
     for (size_t k = 0; k < count; k++)
         row[k] += share * (double)shape[k];
 }
 
 /* Modes first, ... at a load; shapes go with the inverse root of mass. */
-static void fill_row(const struct body *body, size_t first, size_t count,
-                     const struct family_load *load, double *row)
+static void load_shapes(const struct body *body, size_t first, size_t count,
+                        const struct family_load *load, double *row)
 {
     const struct mesh_body *mesh = body->mesh;
     const struct mesh_load *at = &load->mesh;
@@ -139,23 +139,23 @@ static void fill_row(const struct body *body, size_t first, size_t count,
         for (int axis = 0; axis < 3; axis++) {
             double part = at->share[i] * at->direction[axis];
             if (fabs(part) > LEAST_PART)
-                add_row(count, factor * part,
-                        mesh->shapes + (3 * node + axis) * mesh->mode_count + first, row);
+                add_shape(count, factor * part,
+                          mesh->shapes + (3 * node + axis) * mesh->mode_count + first, row);
         }
     }
 }
 
-static void participations(const struct body *body, const struct modal_family *modes,
-                           const size_t *which, size_t count, const struct family_load *load,
-                           double *row)
+static void mesh_family_participations(const struct body *body, const struct modal_family *modes,
+                                       const size_t *which, size_t count,
+                                       const struct family_load *load, double *row)
 {
     (void)modes;
     /* as a rule the first ones */
     if (count > 0 && which[0] == 0 && which[count - 1] == count - 1)
-        fill_row(body, 0, count, load, row);
+        load_shapes(body, 0, count, load, row);
     else
         for (size_t i = 0; i < count; i++)
-            fill_row(body, which[i], 1, load, &row[i]);
+            load_shapes(body, which[i], 1, load, &row[i]);
 }
 
 /* The sum of participation_i participation_j / omega^2 over modes from, ... to - 1, small terms
@@ -171,9 +171,9 @@ static double held_by(const struct body *body, size_t from, size_t to, const str
         size_t count = to - from < AT_ONCE ? to - from : AT_ONCE;
         const double *other = i == j ? rows[0] : rows[1];
         to -= count;
-        fill_row(body, to, count, i, rows[0]);
+        load_shapes(body, to, count, i, rows[0]);
         if (i != j)
-            fill_row(body, to, count, j, rows[1]);
+            load_shapes(body, to, count, j, rows[1]);
         for (size_t k = count; k-- > 0;) {
             double omega = frequencies(body)[to + k];
             sum += rows[0][k] * other[k] / (omega * omega);
@@ -184,7 +184,7 @@ static double held_by(const struct body *body, size_t from, size_t to, const str
 
 /* Between two places. */
 
-/* Parts of an element, the longer one of both sites. */
+/* Sites closer than this are one place, in elements (the longer one of both). */
 static const double ONE_PLACE = 0.5;
 /* Sites that a place is interpolated from: enough for a plane through them. */
 enum { NEIGHBOURS = 6 };
@@ -281,8 +281,8 @@ static struct mean find_mean(const struct mesh_body *mesh, const struct mesh_pus
     return mean;
 }
 
-/* The half-space's part, of forces on one patch: (1 - nu^2)/(pi E r), as far as their normals are
- * one. It is singular where all else is smooth. */
+/* The half-space's part of the response between forces on one patch: (1 - nu^2)/(pi E r) times the
+ * cosine between their normals. It is the singular part. */
 static double half_space_field(const struct mesh_body *mesh, unsigned face, double distance,
                                double alike)
 {
@@ -291,9 +291,9 @@ static double half_space_field(const struct mesh_body *mesh, unsigned face, doub
     return fmax(alike, 0.0) * (1.0 - nu * nu) / (M_PI * material->young * distance);
 }
 
-/* What two sites have beside it; of those that are one place, but for a part of an element, the
- * mean of their own. That the whole between neighbours is no smooth function (mesh->near) does not
- * matter here. */
+/* The part of the response between two sites beside the half-space's; for sites of one place,
+ * closer than a part of an element, the mean of their own. That the whole response is not smooth
+ * between neighbours (mesh->near) does not matter here. */
 static double regular_part(const struct mesh_body *mesh, size_t a, size_t b, bool one_patch)
 {
     double apart[3];
@@ -343,16 +343,17 @@ static struct mesh_push push_of(const struct mesh_load *load)
     return push;
 }
 
-/* Of a box all modes; between two places those that it has. Of a mesh at one place: the regular
- * flexibility with what the removed modes hold. Between two: likewise of
- * the file's sites; without any, the modes' sum, which converges there as no field is singular. */
-static double compliance(const struct body *body, size_t family, const struct family_load *i,
-                         const struct family_load *j)
+/* Box: at one place the flexibility of all modes, between two places the sum over its own modes.
+ * Mesh: at one place the regular flexibility and that of the removed modes; between two places the
+ * same from the file's sites, or without sites the sum over the modes, which converges there as no
+ * field is singular. */
+static double mesh_family_compliance(const struct body *body, size_t family,
+                                     const struct family_load *i, const struct family_load *j)
 {
     (void)family;
     const struct mesh_body *mesh = body->mesh;
     if (body->ritz)
-        return i == j ? i->mesh.flexibility : held_by(body, 0, most(body), i, j);
+        return i == j ? i->mesh.flexibility : held_by(body, 0, mesh_family_most(body), i, j);
     double removed = held_by(body, 0, mesh->removed, i, j);
     if (i == j)
         return i->mesh.flexibility + removed;
@@ -372,11 +373,11 @@ VECTOR_CLONES static void find_inertias(size_t count, const double *row, const d
     }
 }
 
-static double beyond(const struct body *body, const struct modal_family *modes, size_t first,
-                     const struct family_load *load)
+static double mesh_family_beyond(const struct body *body, const struct modal_family *modes,
+                                 size_t first, const struct family_load *load)
 {
     const double *omega = frequencies(body);
-    size_t all = most(body);
+    size_t all = mesh_family_most(body);
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
     double row[AT_ONCE], inertia[AT_ONCE];
@@ -389,7 +390,7 @@ static double beyond(const struct body *body, const struct modal_family *modes, 
     size_t low = first < last ? first : last;
     for (size_t end = all; end > low;) {
         size_t begin = end > low + AT_ONCE ? end - AT_ONCE : low;
-        fill_row(body, begin, end - begin, load, row);
+        load_shapes(body, begin, end - begin, load, row);
         find_inertias(end - begin, row, omega + begin, inertia);
         for (size_t k = end; k > begin && k > first; k--)
             sum += inertia[k - 1 - begin];
@@ -402,7 +403,7 @@ static double beyond(const struct body *body, const struct modal_family *modes, 
     return (sum + TAIL * octave) * scale * scale;
 }
 
-static bool crowds(const struct body *body)
+static bool mesh_family_crowds(const struct body *body)
 {
     (void)body;
     return true;
@@ -410,12 +411,12 @@ static bool crowds(const struct body *body)
 
 const struct mode_family mesh_family = {
     .returns = true,
-    .find = find,
-    .participations = participations,
-    .compliance = compliance,
-    .most = most,
-    .beyond = beyond,
-    .crowds = crowds,
+    .find = mesh_family_find,
+    .participations = mesh_family_participations,
+    .compliance = mesh_family_compliance,
+    .most = mesh_family_most,
+    .beyond = mesh_family_beyond,
+    .crowds = mesh_family_crowds,
 };
 
 const struct mode_family *const mesh_family_alone[1] = {&mesh_family};

@@ -15,13 +15,13 @@ struct site_load;
 
 extern const struct mode_family mesh_family;
 
-/* Of kinds with a box: the load but for its flexibility, which who lends the modes says; the name
- * of the theory. */
+/* Kinds with a box: the load without its flexibility, which the lender of the modes sets
+ * (solve/vibration.c); the name of the theory. */
 void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
                       struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
 
-/* Members of a kind whose vibration is that of its `box`, and its keys for it. */
+/* Members of a kind that vibrates as its `box`, and the keys for that. */
 extern const struct mode_family *const mesh_family_alone[1];
 #define BOX_VIBRATION                                                                              \
     .families = mesh_family_alone, .family_count = 1, .load = mesh_family_load,                    \
@@ -43,13 +43,13 @@ extern const struct mode_family *const mesh_family_alone[1];
  */
 bool mesh_family_box(const struct body *body, struct ritz_shape *shape);
 
-/* What a body is of the one in its file: young, density and size over its own. */
+/* Modulus, density and size of a body over those of its file (mesh) or over 1 (box). */
 struct mesh_ratio {
     double young, density, size;
 };
 struct mesh_ratio mesh_ratio_of(const struct body *body);
 
-/* Flexibilities over those of the file: 1/(E L). */
+/* Its flexibilities over those of the file: 1/(E L). */
 double mesh_ratio_flexibility(const struct body *body);
 
 /* The static response of a meshed body at one place of its surface to a force at another, from the
@@ -61,7 +61,7 @@ struct mesh_push {
 };
 
 /* Displacement (m/N) along the one per newton of the other, without the first mesh->removed modes,
- * of the file's own size and materials; NAN: the file says nothing of it. */
+ * of the file's own size and materials; NAN: the file has no data for it. */
 double mesh_between(const struct mesh_body *mesh, const struct mesh_push *i,
                     const struct mesh_push *j);
 

@@ -12,16 +12,16 @@
 
 /* Deep enough for 2^40 faces. */
 enum { MOST_DEPTH = 64 };
-/* Faces round a node, and those beyond them whose boxes overlap. */
+/* Faces around a node, and further ones with overlapping boxes. */
 enum { MOST_LATER = 16 };
-/* Close to a face: within a tenth of its size, where the nearest place is the only foot but on
- * faces as round as they are long. Converged to what is left of a micrometre on a metre; beyond an
- * edge by no more than that may leave, a foot is on it. */
+/* Close to a face: within a tenth of its size, where the nearest place is the only foot except on
+ * faces as round as they are long. Smaller steps than QUICK_SETTLED have converged, to less than a
+ * micrometre on a metre; a foot beyond an edge by less than QUICK_RIM is on it. */
 enum { QUICK_STEPS = 8 };
 static const double QUICK_NEAR = 0.01;
 static const double QUICK_SETTLED = 1e-10;
 static const double QUICK_RIM = 1e-9;
-/* Of the body's size: what is as near is on the surface. */
+/* A place as near as this is on the surface, in sizes of the body. */
 static const double ENOUGH = 1e-12;
 /* Share of a face's shape function below which a node does not count. */
 static const double NO_SHARE = 1e-9;
@@ -45,7 +45,7 @@ static void face_points(const struct mesh_body *body, const struct mesh_body_fac
         memcpy(points[i], body->points[face->nodes[i]], sizeof points[i]);
 }
 
-/* What the face's points and derivatives add up to. */
+/* Weighted sum of the face's points. */
 static void combine(int count, double points[FACET_MOST_NODES][3], const double *weights,
                     double sum[3])
 {
@@ -54,11 +54,11 @@ static void combine(int count, double points[FACET_MOST_NODES][3], const double 
         add_scaled3(weights[i], points[i], sum);
 }
 
-/* Where a point is to a face, as far as a few steps tell. */
+/* Position of a point relative to a face after a few steps. */
 enum nearness { ABOVE, BESIDE, UNKNOWN };
 
-/* Local coordinates within the face, nearest to (u, v) in them; whether that is on an edge, whose
- * direction is `way`, or else at a corner where (u, v) is outside. */
+/* Moves (u, v), which is outside, to the nearest place of the face in local coordinates. True: that
+ * is on an edge with the direction `way`; false: a corner. */
 static bool pull_inside(int count, double at[2], double way[2])
 {
     double u = at[0], v = at[1];
@@ -79,8 +79,8 @@ static bool pull_inside(int count, double at[2], double way[2])
     return at[0] == u || at[1] == v;
 }
 
-/* The foot of a point that is close to a face and above it, as most are: Gauss and Newton from its
- * middle. BESIDE: the foot on the face drawn on is beyond its edge, (u, v). */
+/* The foot of a point that is close to a face and above it, the usual case, by Gauss-Newton steps
+ * from the middle. BESIDE: the foot on the continued face is beyond its edge, at (u, v). */
 static enum nearness find_quickly(int count, double points[FACET_MOST_NODES][3], const double p[3],
                                   struct facet_foot *foot)
 {
@@ -116,9 +116,9 @@ static enum nearness find_quickly(int count, double points[FACET_MOST_NODES][3],
     return UNKNOWN;
 }
 
-/* How far p is from a plane that all of the face is beyond: at most its distance from the face. All
- * of the face is among its control points, and the plane is across the way to the nearest place of
- * the edge at which (u, v) lies. */
+/* Lower bound of p's distance from the face: the distance from a plane that has all control points,
+ * and so the face, beyond it. The plane is normal to the way from p to the place of the edge
+ * nearest to (u, v). */
 static double bound_distance(const struct mesh_body_face *face, double points[FACET_MOST_NODES][3],
                              const double p[3], const struct facet_foot *foot)
 {
@@ -154,9 +154,9 @@ struct finding {
     const double *p;
     struct mesh_place *places;
     int count, most;
-    double within; /* nothing farther is looked for */
-    double enough; /* and nothing else once something is as near */
-    /* faces that are at least so far: looked at last, as a rule not at all */
+    double within; /* farther places are not searched */
+    double enough; /* the search ends with a place as near */
+    /* faces with a lower bound of their distance: searched last, usually not at all */
     int later_count;
     unsigned later[MOST_LATER];
     double later_bound[MOST_LATER];
@@ -196,7 +196,7 @@ static void keep_foot(struct finding *finding, unsigned face, const struct facet
         finding->within = fmin(finding->within, finding->places[finding->count - 1].distance);
 }
 
-/* By all that a face has: where its middle part does not tell. */
+/* The complete search of a face, where the quick one does not decide. */
 static void look_closely(struct finding *finding, unsigned face)
 {
     const struct mesh_body_face *at = &finding->body->faces[face];
@@ -242,8 +242,8 @@ static void take_later(struct finding *finding)
     }
 }
 
-/* From the root down, the nearer box first: of the faces whose boxes have the point inside, or of
- * all others. */
+/* From the root down, the nearer box first: the faces with the point inside their boxes, or all
+ * others. */
 static void search_boxes(struct finding *finding, bool inside)
 {
     const struct mesh_box *boxes = finding->body->boxes;
@@ -277,8 +277,8 @@ static void search_boxes(struct finding *finding, bool inside)
     }
 }
 
-/* A point on the surface is within the boxes of its faces: then no other ones are near. */
-static void search(struct finding *finding)
+/* A point on the surface lies in the boxes of its faces: then no other face is near. */
+static void surface_search(struct finding *finding)
 {
     search_boxes(finding, true);
     search_boxes(finding, false);
@@ -315,7 +315,7 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
                        fmax(body->high[1] - body->low[1], body->high[2] - body->low[2]));
     struct finding finding = {
         body, p, places, .most = 1, .within = INFINITY, .enough = ENOUGH * size};
-    search(&finding);
+    surface_search(&finding);
     if (finding.count == 0)
         return 0;
     places[0].to_rim = distance_to_rim(body, body->faces[places[0].face].patch, places[0].point);
@@ -326,7 +326,7 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
     finding.enough = -1.0;
     finding.later_count = 0;
     finding.within = places[0].distance + beside;
-    search(&finding);
+    surface_search(&finding);
     for (int i = 0; i < finding.count; i++)
         places[i].to_rim =
             distance_to_rim(body, body->faces[places[i].face].patch, places[i].point);
@@ -346,8 +346,8 @@ double mesh_surface_face_size(const struct mesh_body *body, unsigned face)
     return sqrt(longest2);
 }
 
-/* The tensor without what it has along the normal: interpolation turns the normal a little. */
-static void lay_across(const double n[3], double curvature[9])
+/* Removes the tensor's part along the normal: interpolation turns the normal a little. */
+static void tensor_lay_across(const double n[3], double curvature[9])
 {
     double image[3];
     rotate3(curvature, n, image);
@@ -382,7 +382,7 @@ struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, do
     scale3(length > 0.0 ? 1.0 / length : 0.0, spot.normal, spot.normal);
     for (int k = 0; k < 9; k++)
         spot.curvature[k] = tensor[PLACES[k]];
-    lay_across(spot.normal, spot.curvature);
+    tensor_lay_across(spot.normal, spot.curvature);
     return spot;
 }
 
@@ -402,11 +402,11 @@ struct edge {
 static void edge_control(const double a[3], const double m[3], const double b[3], double c[3])
 {
     for (int k = 0; k < 3; k++)
-        c[k] = 2.0 * m[k] - 0.5 * (a[k] + b[k]);
+        c[k] = facet_control(a[k], m[k], b[k]);
 }
 
-/* Control points of the face: corners, of the edges, and of a quadrilateral's middle, which comes
- * of its two middle lines' as those of its edges do. */
+/* Control points of the face: its corners, those of its edges, and that of a quadrilateral's
+ * middle, from both middle lines in the same way. */
 static int controls_of(const struct mesh_body *body, const struct mesh_body_face *face,
                        double points[FACET_MOST_NODES][3])
 {
@@ -420,7 +420,7 @@ static int controls_of(const struct mesh_body *body, const struct mesh_body_face
     }
     if (corners == 3)
         return 6;
-    /* the middle node of eight is what the others make of it */
+    /* eight nodes: the middle one is interpolated from the others */
     for (int k = 0; face->count == 8 && k < 3; k++)
         nodes[8][k] = 0.5 * (nodes[4][k] + nodes[5][k] + nodes[6][k] + nodes[7][k]) -
                       0.25 * (nodes[0][k] + nodes[1][k] + nodes[2][k] + nodes[3][k]);
@@ -442,7 +442,7 @@ static struct mesh_box box_of_face(const struct mesh_body *body, unsigned f)
             low = fmin(low, points[i][k]);
             high = fmax(high, points[i][k]);
         }
-        /* what floats leave */
+        /* rounding to float */
         double pad = 1e-6 * fmax(fabs(low), fabs(high));
         box.low[k] = (float)(low - pad);
         box.high[k] = (float)(high + pad);
@@ -458,7 +458,7 @@ static void join_boxes(struct mesh_box *box, const struct mesh_box *other)
     }
 }
 
-/* What sorts faces by the middles of their boxes along an axis. */
+/* Context of the sort of faces by the middles of their boxes along an axis. */
 struct box_order {
     const struct mesh_box *boxes;
     int axis;

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Places on the surface of a reduced body: the nearest to a point, and what the surface is like
- * there. In the frame and size of the file. */
+/* Places on the surface of a reduced body: the one nearest to a point, and the properties of the
+ * surface there. In the frame and size of the file. */
 #ifndef PERCUSS_MODEL_MESH_SURFACE_H
 #define PERCUSS_MODEL_MESH_SURFACE_H
 
@@ -15,11 +15,11 @@ struct mesh_place {
     unsigned face;
     double u, v;     /* on it, see facet.h */
     double point[3]; /* m */
-    double distance; /* of the point that was asked about, >= 0, m */
+    double distance; /* from the given point, >= 0, m */
     double to_rim;   /* from the patch's nearest sharp edge, m; INFINITY: it has none */
 };
 
-/* What the surface is like at a place, interpolated between the nodes of its face. */
+/* Properties of the surface at a place, interpolated between the nodes of its face. */
 struct mesh_spot {
     double normal[3];    /* outward, unit */
     double curvature[9]; /* symmetric, across the normal, 1/m */
@@ -28,7 +28,7 @@ struct mesh_spot {
     double slope;
 };
 
-/* Makes what the search needs. False: out of memory. */
+/* Makes the search structures of a body. False: out of memory. */
 bool mesh_surface_prepare(struct mesh_body *body);
 
 /* The nearest place, and the nearest ones of other patches within `beside` of it where it is no
@@ -36,7 +36,7 @@ bool mesh_surface_prepare(struct mesh_body *body);
 int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
                       struct mesh_place *places, int most);
 
-/* How long a face is: the longest of its edges, from corner to corner, m. */
+/* Size of a face: the longest of its edges, from corner to corner, m. */
 double mesh_surface_face_size(const struct mesh_body *body, unsigned face);
 
 struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, double u, double v);

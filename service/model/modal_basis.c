@@ -17,7 +17,8 @@ struct site_load site_load_make(const struct body *body, const struct site *site
     return load;
 }
 
-static struct modal_family *allocate(const struct mode_family *kind, size_t family, size_t count)
+static struct modal_family *modal_family_allocate(const struct mode_family *kind, size_t family,
+                                                  size_t count)
 {
     struct modal_family *modes = calloc(1, sizeof *modes);
     if (!modes)
@@ -41,7 +42,7 @@ static struct modal_family *allocate(const struct mode_family *kind, size_t fami
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count)
 {
     const struct mode_family *kind = body->kind->families[family];
-    struct modal_family *modes = allocate(kind, family, count);
+    struct modal_family *modes = modal_family_allocate(kind, family, count);
     if (modes)
         kind->find(body, modes);
     return modes;
@@ -51,7 +52,7 @@ struct modal_family *modal_family_grow(const struct body *body, const struct mod
                                        size_t count)
 {
     const struct mode_family *kind = body->kind->families[known->family];
-    struct modal_family *modes = allocate(kind, known->family, count);
+    struct modal_family *modes = modal_family_allocate(kind, known->family, count);
     if (!modes)
         return NULL;
     if (kind->walk_size) {

@@ -19,13 +19,13 @@ struct mesh_load {
     double direction[3];                /* unit */
     double point[3];                    /* mesh's frame and size, m */
     double flexibility;                 /* regular, of the body's own size and material, m/N */
-    double unknown;                     /* of that, m/N */
+    double unknown;                     /* uncertainty of the flexibility, m/N */
     double slope, cut; /* box: its change with the logarithm of the contact's radius from `cut` (m)
                         * down, m/N; 0: none */
 };
 
-/* What one newton at a contact does to one family of a body. Kinds that are no bars keep what they
- * need beside `bar`. */
+/* Load of one newton at a contact on one family of a body: `bar` of bars, `mesh` of all other
+ * kinds. */
 struct family_load {
     bool acts;
     struct beam_load bar;
@@ -44,13 +44,12 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 /* The first `count` modes of a family; NULL: out of memory. */
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count);
 
-/* The same, to the same bits, of a family whose first ones, fewer, are known: they need not be
- * sought again. */
+/* The same, to the same bits, from a family with fewer modes, which are not computed again. */
 struct modal_family *modal_family_grow(const struct body *body, const struct modal_family *known,
                                        size_t count);
 void modal_family_free(struct modal_family *modes);
 
-/* How many modes a family has at most; SIZE_MAX: any number. */
+/* The largest number of modes of a family; SIZE_MAX: any number. */
 size_t modal_family_most(const struct body *body, size_t family);
 
 /* Displacement of mode k at the load, along it, for unit modal coordinate, 1/sqrt(kg). */
@@ -67,8 +66,8 @@ void modal_participations(const struct body *body, const struct modal_family *mo
 double modal_compliance(const struct body *body, size_t family, const struct family_load *i,
                         const struct family_load *j);
 
-/* What the modes from `first` on leave of a load's compliance where nothing says so but what the
- * others hold, `left`; see struct mode_family. */
+/* Compliance of the modes from `first` on at a load: by `beyond` of struct mode_family, else
+ * `left`, the static compliance less that of the modes before. */
 double modal_beyond(const struct body *body, const struct modal_family *modes, size_t first,
                     const struct family_load *load, double left);
 

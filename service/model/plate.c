@@ -18,12 +18,12 @@ static const double SHEAR = 5.0 / 6.0;
  * (Proc. I. Mech. E. 168 (1954) 371; Leissa, NASA SP-160, chapter 4). */
 struct side {
     double length;
-    double shape[MODES];                 /* at the blow; mean square 1 */
+    double shape[MODES];                 /* at the impact; mean square 1 */
     double g[MODES], h[MODES], j[MODES]; /* in pi/length and its square */
 };
 
 /* cosh(z)/cosh(end) or the same of sinh, |z| <= end. */
-static double hyperbolic(double z, double end, bool odd)
+static double plate_hyperbolic(double z, double end, bool odd)
 {
     double x = fabs(z), sign = odd ? -1.0 : 1.0;
     double ratio = exp(x - end) * (1.0 + sign * exp(-2.0 * x)) / (1.0 + sign * exp(-2.0 * end));
@@ -37,13 +37,13 @@ static double free_bar_shape(int mode, double place)
     if (mode == 1)
         return sqrt(12.0) * place;
     double k = (mode - 0.5) * M_PI, z = k * place, end = 0.5 * k;
-    return mode % 2 ? sin(z) / sin(end) + hyperbolic(z, end, true)
-                    : cos(z) / cos(end) + hyperbolic(z, end, false);
+    return mode % 2 ? sin(z) / sin(end) + plate_hyperbolic(z, end, true)
+                    : cos(z) / cos(end) + plate_hyperbolic(z, end, false);
 }
 
 static void make_side(double length, double at, double reach, struct side *side)
 {
-    /* what lies farther off than waves reach is as good as infinite */
+    /* parts that waves do not reach count as infinite */
     double inside = fmax(0.5 * length - fabs(at), 0.0);
     side->length = fmin(length, reach);
     double place = 0.5 - fmin(inside / side->length, 0.5);
@@ -59,8 +59,8 @@ static void make_side(double length, double at, double reach, struct side *side)
     }
 }
 
-/* Of the impulse's square, of half a sine, s being the frequency times twice its duration; above
- * its first zero the envelope. */
+/* Square of a half sine's spectrum over its impulse, s being the frequency times twice its
+ * duration; above its first zero the envelope. */
 static double spectrum(double s)
 {
     static const double FLAT = 0.32; /* at s = 1.5 */
@@ -73,14 +73,14 @@ static double spectrum(double s)
     return amplitude * amplitude;
 }
 
-/* What modes in bending of both sides do, times the mass: of a blow's impulse squared, and by the
- * faster ones as a spring. */
+/* Effects of the modes that bend the sides, times the mass: energy over the square of the impulse,
+ * and the compliance of the faster modes. */
 struct bending {
     double taken;
     double give; /* s^2 */
 };
 
-/* Of those that bend across the second side at least so often: 0 all, 2 those that a bar lacks.
+/* Sum over modes from number `first` across the second side: 0: all, 2: those that a bar lacks.
  * Sheared sections, Timoshenko's, make short waves slower: 1/omega^2 = 1/(bending k^2)^2 + 1/(shear
  * k)^2. */
 static struct bending bending_sum(const struct side sides[2], int first, double poisson,
@@ -108,7 +108,7 @@ static struct bending bending_sum(const struct side sides[2], int first, double 
     return sum;
 }
 
-/* A force on an end beside the axis bends the bar along its height: its moment turns the end. */
+/* A force on an end off the axis bends the bar along its height: its moment turns the end. */
 static double eccentric_sum(const struct plate *plate, int side, double shear, double duration)
 {
     double length = plate->height, thickness = plate->sides[side], lever = plate->at[side];
@@ -126,7 +126,7 @@ static double eccentric_sum(const struct plate *plate, int side, double shear, d
     return sum;
 }
 
-/* How a plate takes a blow: its sides as far as waves come, and what of its mass that is. */
+/* The part of a plate that the waves of an impact reach: its sides and its mass. */
 struct reach {
     struct side sides[2];
     double waves[2]; /* omega = bending k^2 of long waves, shear k of short ones */
@@ -153,7 +153,7 @@ double plate_share(const struct plate *plate, double reduced, double duration)
 {
     struct reach reach;
     reach_of(plate, duration, &reach);
-    /* each mode takes the square of its part in the impulse 2 mu v, over 2 */
+    /* each mode takes half the square of its part in the impulse 2 mu v */
     double poisson = plate->material->poisson;
     double sum = bending_sum(reach.sides, 0, poisson, reach.waves, duration).taken / reach.mass;
     for (int i = 0; i < 2; i++)

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An estimate of what bending takes of a blow on a box that is taken as rigid. */
+/* Estimate of the energy that bending takes in an impact on a box that is computed as rigid. */
 #ifndef PERCUSS_MODEL_PLATE_H
 #define PERCUSS_MODEL_PLATE_H
 
@@ -11,7 +11,7 @@
 struct plate {
     const struct material *material;
     double height, sides[2]; /* m */
-    double at[2];            /* place of the blow along the sides from the middle, m */
+    double at[2];            /* place of the impact along the sides from the middle, m */
     double mass;             /* kg */
 };
 
@@ -21,7 +21,8 @@ struct plate {
 double plate_share(const struct plate *plate, double reduced, double duration);
 
 /* The part of bending that a bar along the first side lacks: its section bends across the second
- * one. Modes slower than half a period a blow take energy, faster ones give way. */
+ * one. Modes with a half period longer than the impact take energy, faster ones also yield as
+ * springs. */
 struct plate_across {
     double share;      /* of the energy, as above */
     double compliance; /* m/N */

@@ -5,7 +5,7 @@
 
 #include "model/vector.h"
 
-/* What may move: inverse mass, inverse inertia about `centre` (body frame). */
+/* Mobility of a body as a whole: inverse mass, inverse inertia about `centre` (body frame). */
 struct mobility {
     double inverse_mass;
     double inverse_inertia[3];
@@ -27,7 +27,7 @@ static void invert_tensor(const struct body *body, struct mobility *mobility)
     scale3(share, (const double[3]){yz, zx, xy}, mobility->inverse_products);
 }
 
-/* What a moment turns. */
+/* turn = inverse inertia times moment. */
 static void turn_by(const struct mobility *mobility, const double moment[3], double turn[3])
 {
     const double *p = mobility->inverse_products;

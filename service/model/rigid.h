@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Rigid motion that a body's supports allow, and what an impulse does to it. */
+/* Rigid motions that a body's supports allow, and their change by an impulse. */
 #ifndef PERCUSS_MODEL_RIGID_H
 #define PERCUSS_MODEL_RIGID_H
 

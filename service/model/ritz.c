@@ -39,7 +39,7 @@ struct ritz {
     } * mode; /* [count] */
 };
 
-/* Thinner boxes would take polynomials of higher degree than are numerically good. */
+/* Thinner boxes would need polynomials of a higher degree than is numerically stable. */
 static const double THINNEST = 1.0 / 200.0;
 /* Polynomials beyond pi for each wave, until frequencies are good to 1e-3. */
 static const double SPARE = 3.0;
@@ -93,9 +93,9 @@ static bool add_rigid(struct ritz_class *class, size_t i, double one, size_t j, 
     return true;
 }
 
-/* A coordinate over the polynomial of degree one, of all alike but for a factor: sqrt(12) of a
- * side, 4 of a diameter. */
-static double spread(const struct ritz *ritz, int axis)
+/* A coordinate over the polynomial of degree one, up to a common factor: sqrt(12) of a side, 4 of a
+ * diameter. */
+static double axis_spread(const struct ritz *ritz, int axis)
 {
     return ritz->basis.side[axis] * (ritz->basis.round && axis > 0 ? sqrt(0.75) : 1.0);
 }
@@ -111,14 +111,14 @@ static bool find_rigids(const struct ritz *ritz, struct ritz_class *class)
         if (along < class->terms.count)
             good = add_rigid(class, along, 1.0, class->terms.count, 0.0);
         if (good && i < class->terms.count && j < class->terms.count)
-            good = add_rigid(class, i, -spread(ritz, c), j, spread(ritz, b));
+            good = add_rigid(class, i, -axis_spread(ritz, c), j, axis_spread(ritz, b));
     }
     return good;
 }
 
-/* Up to the frequency whose slowest waves the polynomials resolve: 1/omega^2 = 1/(bending k^2)^2 +
- * 1/(c_R k)^2 of waves along each side, c_R being Rayleigh's speed,
- * whose formula ends below poisson -0.4 where it is 0.69 of the shear wave's at least. */
+/* Up to the frequency of the slowest waves that the polynomials resolve: 1/omega^2 = 1/(bending
+ * k^2)^2 + 1/(c_R k)^2 of waves along each side, with Rayleigh's speed c_R. Its formula ends below
+ * poisson -0.4, where it is at least 0.69 of the shear wave's. */
 static double find_highest(const struct ritz *ritz)
 {
     double shear = sqrt(0.5 / (1.0 + ritz->poisson));
@@ -133,7 +133,7 @@ static double find_highest(const struct ritz *ritz)
     return least;
 }
 
-/* The lower triangle with the rigid motions held, which leaves what they are not as it is. */
+/* The lower triangle with the rigid motions held; it is unchanged for all other motions. */
 static void hold_rigids(const struct ritz_class *class, const double *k, double *held)
 {
     size_t n = class->terms.count;
@@ -178,7 +178,7 @@ static bool solve_class(const struct ritz *ritz, struct ritz_class *class, doubl
     return found != SIZE_MAX;
 }
 
-/* All classes' modes by their frequencies; equal ones in the order of classes. */
+/* Sorts the modes of all classes by their frequencies; equal ones by their class. */
 static bool merge(struct ritz *ritz)
 {
     size_t next[RITZ_CLASSES] = {0}, all = 0;
@@ -203,8 +203,8 @@ static bool merge(struct ritz *ritz)
     return true;
 }
 
-/* Its polynomials are chosen, and the frequency up to which modes are wanted. */
-static bool solve(struct ritz *ritz, struct pace *pace)
+/* Solves all classes once the polynomials and the highest frequency are chosen. */
+static bool solve_classes(struct ritz *ritz, struct pace *pace)
 {
     bool good = ritz_basis_prepare(&ritz->basis);
     for (int c = 0; good && c < RITZ_CLASSES; c++)
@@ -214,8 +214,8 @@ static bool solve(struct ritz *ritz, struct pace *pace)
     return good && merge(ritz);
 }
 
-/* The free box beside a held one: the held one's polynomials are those of its that vanish on the
- * held faces. Without modes. */
+/* The free box of a held one, without modes: the polynomials of the held one are those of the free
+ * one that vanish on the held faces. */
 static bool make_free(struct ritz *ritz, struct pace *pace)
 {
     struct ritz *made = calloc(1, sizeof *made);
@@ -229,7 +229,7 @@ static bool make_free(struct ritz *ritz, struct pace *pace)
     memcpy(made->basis.side, ritz->basis.side, sizeof made->basis.side);
     memcpy(made->basis.orders, ritz->basis.orders, sizeof made->basis.orders);
     made->basis.orders[0] += made->basis.lifted;
-    return solve(made, pace);
+    return solve_classes(made, pace);
 }
 
 struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct pace *pace)
@@ -250,7 +250,7 @@ struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct 
     }
     ritz_basis_choose_orders(&ritz->basis);
     ritz->highest = find_highest(ritz);
-    if (solve(ritz, pace) && (ritz_basis_holds(&ritz->basis) == 0 || make_free(ritz, pace)))
+    if (solve_classes(ritz, pace) && (ritz_basis_holds(&ritz->basis) == 0 || make_free(ritz, pace)))
         return ritz;
     ritz_free(ritz);
     return NULL;
@@ -312,7 +312,7 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
     }
 }
 
-/* Flexibility: the half-space under the load, and what the other faces change of it. */
+/* Flexibility: the half-space under the load, and the effect of the other faces. */
 
 /* Gauss' rule of six points on panels that grow away from a place. */
 enum { GAUSS = 6, MOST_PANELS = 40, MOST_POINTS = GAUSS * MOST_PANELS };
@@ -337,7 +337,7 @@ static void add_panel(struct rule *rule, double from, double to)
     }
 }
 
-/* Over [-half, half], fine at `place` for what varies over `scale`. */
+/* Over [-half, half], fine at `place` for variations over `scale`. */
 static void make_rule(double half, double place, double scale, struct rule *rule)
 {
     rule->count = 0;
@@ -353,12 +353,12 @@ static void make_rule(double half, double place, double scale, struct rule *rule
     }
 }
 
-/* A unit force along the inward normal of a face, and what is summed up over the other five. */
+/* A unit force along the inward normal of a face, and the sums over the other five. */
 struct push {
     const struct ritz *ritz;
     int axis, side; /* the face */
     struct boussinesq3 load;
-    bool inside;      /* of the cut: what is summed up is not the surface */
+    bool inside;      /* the point is within the cut, where `surface` is not summed */
     double surface;   /* of the half-space's traction times its displacement */
     double motion[3]; /* of the half-space's field times the density, along the outward normal and
                        * in the two rotations that the force takes part in */
@@ -407,9 +407,9 @@ static void reciprocal(const struct push *push, int other, const double at[3], d
     stress[5] = full[2][0];
 }
 
-/* What one point of a face adds to the sums: the traction, weighted. */
-static void add_point(struct push *push, const double at[3], const double outward[3], double weight,
-                      double traction[3])
+/* Adds one point of a face to the sums, and gives its weighted traction. */
+static void push_add_point(struct push *push, const double at[3], const double outward[3],
+                           double weight, double traction[3])
 {
     double u[3], stress[6];
     boussinesq3_field(&push->load, at, u, stress);
@@ -426,7 +426,7 @@ static void add_point(struct push *push, const double at[3], const double outwar
 }
 
 /* One face, its sums with all products. `rows`: [3][RITZ_MOST_ORDERS] of one line of points. */
-static bool add_face(struct push *push, int axis, int side)
+static bool push_add_face(struct push *push, int axis, int side)
 {
     const struct ritz *ritz = push->ritz;
     int across = (axis + 1) % 3, along = (axis + 2) % 3;
@@ -448,7 +448,7 @@ static bool add_face(struct push *push, int axis, int side)
         /* along one line, then across */
         for (size_t j = 0; j < rules[1].count; j++) {
             at[along] = rules[1].x[j];
-            add_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j], traction);
+            push_add_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j], traction);
             polynomial_legendre(n[2], 2.0 * at[along] / half[along], table);
             for (int c = 0; c < 3; c++)
                 for (size_t q = 0; q < n[2]; q++)
@@ -489,7 +489,7 @@ static void add_round_point(struct push *push, const double at[3], const double 
     const size_t *all = ritz->basis.orders;
     struct ritz_functions functions;
     double traction[3], scale = -1.0 / sqrt(ritz->basis.volume);
-    add_point(push, at, outward, weight, traction);
+    push_add_point(push, at, outward, weight, traction);
     ritz_functions_fill(&ritz->basis, at, &functions);
     for (size_t c = 0; c < 3; c++)
         for (size_t p = 0; p < all[0]; p++) {
@@ -501,7 +501,7 @@ static void add_round_point(struct push *push, const double at[3], const double 
         }
 }
 
-/* Radii from 0 on, fine for what varies over `scale`, with an end of a panel at `cut`. */
+/* Radii from 0 on, fine for variations over `scale`, with an end of a panel at `cut`. */
 static void make_radii(double most, double scale, double cut, struct rule *rule)
 {
     double from = 0.0;
@@ -608,7 +608,7 @@ static bool add_round(struct push *push, bool on_side)
 }
 
 /* The forces on a class' coordinates. */
-static void gather(const struct push *push, const struct ritz_class *class, double *f)
+static void push_gather(const struct push *push, const struct ritz_class *class, double *f)
 {
     const size_t *all = push->ritz->basis.orders;
     for (size_t i = 0; i < class->terms.count; i++) {
@@ -657,7 +657,7 @@ static void place_load(struct push *push, int axis, const double point[3])
     at[push->axis] = 0.5 * push->side * ritz->basis.side[push->axis];
     if (axis == RITZ_ROUND)
         at[2] = 0.0;
-    /* a rim is as good as the edge */
+    /* beyond the edge the edge's own place */
     double off = hypot(at[1], at[2]), most = 0.5 * ritz->basis.side[1];
     if (ritz->basis.round && axis == 0 && off > most) {
         at[1] *= most / off;
@@ -665,7 +665,7 @@ static void place_load(struct push *push, int axis, const double point[3])
     }
 }
 
-static double *make_room(const struct ritz *ritz)
+static double *class_room(const struct ritz *ritz)
 {
     size_t largest = 0;
     for (int c = 0; c < RITZ_CLASSES; c++)
@@ -673,7 +673,8 @@ static double *make_room(const struct ritz *ritz)
     return calloc(2 * largest + 1, sizeof(double));
 }
 
-/* As of meshes: f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions. */
+/* As for meshes (reduce/flexibility.h): f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions.
+ */
 static double of_free(const struct ritz *ritz, int axis, int side, const double point[3])
 {
     const size_t *n = ritz->basis.orders;
@@ -685,7 +686,7 @@ static double of_free(const struct ritz *ritz, int axis, int side, const double 
     bool good = push.force != NULL;
     for (int face = 0; good && !ritz->basis.round && face < 6; face++)
         if (face / 2 != axis || (face % 2 ? 1 : -1) != side)
-            good = add_face(&push, face / 2, face % 2 ? 1 : -1);
+            good = push_add_face(&push, face / 2, face % 2 ? 1 : -1);
     if (good && ritz->basis.round)
         good = add_round(&push, on_side);
     /* rigid motions: the force is -1 along the outward normal z, x along it in the rotation */
@@ -697,9 +698,9 @@ static double of_free(const struct ritz *ritz, int axis, int side, const double 
         sum -= 2.0 * push.load.point[other] * push.motion[i] / inertia;
     }
     /* and the elastic ones */
-    double *f = make_room(ritz);
+    double *f = class_room(ritz);
     for (int c = 0; good && f && c < RITZ_CLASSES; c++) {
-        gather(&push, &ritz->class[c], f);
+        push_gather(&push, &ritz->class[c], f);
         sum += energy_of(&ritz->class[c], f);
     }
     good = good && f;
@@ -708,12 +709,12 @@ static double of_free(const struct ritz *ritz, int axis, int side, const double 
     return good ? sum : NAN;
 }
 
-/* To a force at the point by the polynomials alone: it grows with their number, as of any that
- * resolve as much there. */
+/* Compliance of a point by the polynomials alone: it grows with their number, equally in all bases
+ * that resolve as much there. */
 static double by_polynomials(const struct ritz *ritz, const struct boussinesq3 *load)
 {
     struct ritz_functions functions;
-    double *f = make_room(ritz), sum = 0.0;
+    double *f = class_room(ritz), sum = 0.0;
     ritz_functions_fill(&ritz->basis, load->point, &functions);
     for (int c = 0; f && c < RITZ_CLASSES; c++) {
         ritz_functions_along(&ritz->basis, &ritz->class[c].terms, &functions, load->inward, f);
@@ -723,8 +724,8 @@ static double by_polynomials(const struct ritz *ritz, const struct boussinesq3 *
     return f ? sum : NAN;
 }
 
-/* Of a held box: that of the free one, and what holding it changes, which is smooth away from the
- * held face: from polynomials that are all of the free one's that vanish there. */
+/* Held box: the flexibility of the free one and the change by holding it, which is smooth away from
+ * the held face: from polynomials that are all those of the free box that vanish there. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3])
 {
     if (!ritz->free)
@@ -760,9 +761,9 @@ static double lacking(const struct ritz *ritz, int axis, const double point[3], 
     return fmin(ONE * exp(FALL * (1.0 - least)), MOST) / distance;
 }
 
-/* Beside a held face and where the mirror of the load is held, by polynomials that are finer by a
- * half: 0.01 to 0.003 over the distance, which the edges of held faces, whose stress is infinite,
- * leave. */
+/* Uncertainty beside a held face, and where the mirror image of the load is held: polynomials that
+ * are finer by half show 0.003 to 0.01 over the distance, which the infinite stress at the edges of
+ * held faces leaves. */
 static double beside_held(const struct ritz *ritz, const double point[3])
 {
     static const double HELD = 0.02;

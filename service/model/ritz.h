@@ -23,33 +23,33 @@
 struct pace;
 struct ritz;
 
-/* What it is of: sides along x, y, z; a round one has its diameter twice. */
+/* Its shape: sides along x, y, z; a round one has its diameter twice. */
 struct ritz_shape {
     double side[3];
     bool round;
     bool held[2]; /* a box: nothing moves on its faces at -x, +x */
 };
 
-/* Names the side of a cylinder, whose normal is no axis. */
+/* The axis that stands for the side of a cylinder. */
 enum { RITZ_ROUND = 3 };
 
-/* Whether it is within what polynomials reach: no thinner than 1/200 of its length. */
+/* Whether polynomials reach a shape: no thinner than 1/200 of its length. */
 bool ritz_reaches(const struct ritz_shape *shape);
 
-/* Of these proportions. It takes milliseconds for a compact box and up to five seconds for a thin
- * plate or a long bar, and is immutable. The pace (NULL: nobody waits) is asked between the eight
- * classes. NULL: out of memory, or stopped. */
+/* The vibration of these proportions. It takes milliseconds for a compact box and up to five
+ * seconds for a thin plate or a long bar, and is immutable. The pace (NULL: it is never stopped) is
+ * asked between the eight classes. NULL: out of memory, or stopped. */
 struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct pace *pace);
 void ritz_free(struct ritz *ritz); /* NULL is allowed */
 
-/* What it holds, but for small things, bytes. */
+/* Its size without small members, bytes. */
 size_t ritz_size(const struct ritz *ritz);
 
 /* Elastic modes, ascending: as many as the polynomials resolve to some 1e-3. */
 size_t ritz_mode_count(const struct ritz *ritz);
 const double *ritz_omega(const struct ritz *ritz);
 
-/* The frequency up to which it has them: there may be none. */
+/* The frequency up to which it has modes; there may be none. */
 double ritz_highest(const struct ritz *ritz);
 
 /* Displacements along `direction` at a point of the modes first, ... first + count - 1, for unit
@@ -57,18 +57,18 @@ double ritz_highest(const struct ritz *ritz);
 void ritz_shapes(const struct ritz *ritz, const double point[3], const double direction[3],
                  size_t first, size_t count, double *row);
 
-/* Static compliance to a force of 1 along the inward normal at a point of the face whose outward
- * normal is `side` (-1, 1) times the axis `axis`, beyond that of a half-space, the load being
- * balanced by the inertia of the rigid motions unless a face is held. Of a cylinder's own side,
- * RITZ_ROUND, it is that of a contact of the radius RITZ_CUT, and changes by ritz_slope with its
- * logarithm. NAN: out of memory. */
+/* Static compliance to a force of 1 along the inward normal at a point of the face with the outward
+ * normal `side` (-1, 1) times the axis `axis`, beyond that of a half-space; the inertia of the
+ * rigid motions balances the load unless a face is held. On a cylinder's side, RITZ_ROUND, it is
+ * that of a contact of the radius RITZ_CUT, and changes by ritz_slope with the logarithm of the
+ * radius. NAN: out of memory. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3]);
 
 static const double RITZ_CUT = 0.02; /* diameters */
 double ritz_slope(const struct ritz *ritz);
 
-/* What of it the polynomials do not resolve there, being coarser than the other faces are near:
- * from the opposite face, which is to be added, and an uncertainty of all. */
+/* Errors of it where other faces are nearer than the polynomials resolve: the part due to the
+ * opposite face, which is to be added, and the uncertainty due to all. */
 struct ritz_unresolved {
     double lacks, doubt;
 };

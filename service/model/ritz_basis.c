@@ -127,16 +127,16 @@ void polynomial_gauss(size_t n, double *x, double *weight)
 
 /* Products of polynomials. */
 
-/* Polynomials along a side: so many and so many more for each thickness in it. Of a plate of 10 the
- * flexibility in its middle is good to 0.002/(E h), of a cube to 2e-5/(E L). */
+/* Polynomials along a side: LEAST, and MORE for each thickness in it. The flexibility in the middle
+ * of a plate of 10 thicknesses is good to 0.002/(E h), of a cube to 2e-5/(E L). */
 static const double LEAST = 9.5, MORE = 1.6;
 /* Across a thin body, and along the shorter sides of a compact one. */
 enum { ACROSS = 6, ACROSS_THIN = 5, COMPACT = 11 };
 static const double THIN = 0.12;
-/* Where faces are held: so few along a long side, and of the most of a class so much, more where
- * both parities of x stand in one. */
+/* Where faces are held: the least number along a long side, and the largest class over
+ * RITZ_MOST_OF_CLASS; MOST_MIXED where a class has both parities of x. */
 static const double LEAST_HELD = 9.0, MOST_HELD = 0.85, MOST_MIXED = 1.5;
-/* In classes of plates that stretch, which have longer waves. */
+/* Share of the polynomials in the stretching classes of plates, which have longer waves. */
 static const double STRETCHED = 0.7;
 
 int ritz_basis_thinnest(const struct ritz_basis *basis)
@@ -153,7 +153,7 @@ static unsigned parity(int class, int component, int axis)
     return ((unsigned)class >> axis ^ (component == axis ? 1U : 0U)) & 1U;
 }
 
-/* Whether the class stretches a plate whose normal is `axis`: displacements along it are odd. */
+/* Whether the class stretches a plate normal to `axis`: displacements along it are odd. */
 static bool stretches(int class, int axis)
 {
     return parity(class, axis, axis) == 1;
@@ -165,7 +165,7 @@ size_t ritz_basis_holds(const struct ritz_basis *basis)
 }
 
 /* About how many coordinates a class has. */
-static double class_size(const struct ritz_basis *basis)
+static double basis_class_size(const struct ritz_basis *basis)
 {
     double product = basis->mixed ? 3.0 / 4.0 : 3.0 / 8.0;
     int longs = 0;
@@ -176,13 +176,13 @@ static double class_size(const struct ritz_basis *basis)
     return longs == 2 ? M_PI_4 * product : product;
 }
 
-/* Of a held box, which keeps the factors of a free one besides: of long sides a few more are taken
- * off, of the longest first. */
+/* A held box stores the factors of a free one besides: polynomials are taken off its longest sides.
+ */
 static void save_orders(struct ritz_basis *basis)
 {
     size_t *n = basis->orders;
     double most = (basis->mixed ? MOST_MIXED : MOST_HELD) * RITZ_MOST_OF_CLASS;
-    while (class_size(basis) > most) {
+    while (basis_class_size(basis) > most) {
         int longest = 0;
         for (int d = 1; d < 3; d++)
             longest = n[d] > n[longest] ? d : longest;
@@ -206,7 +206,7 @@ void ritz_basis_choose_orders(struct ritz_basis *basis)
     for (int d = 0; d < 3; d++)
         if (basis->side[d] < 2.0 * least)
             wanted[d] = fmin(wanted[d], across);
-    /* no more than can be afforded */
+    /* at most RITZ_MOST_OF_CLASS */
     double of_class = (basis->round ? 0.5 : 1.0) * 3.0 / 8.0 * wanted[0] * wanted[1] * wanted[2];
     if (basis->mixed)
         of_class *= M_SQRT2;
@@ -227,7 +227,7 @@ void ritz_basis_choose_orders(struct ritz_basis *basis)
         save_orders(basis);
 }
 
-/* Whether a product of polynomials is taken: of long sides those within an ellipse. */
+/* Whether the basis has a product of polynomials: along long sides those within an ellipse. */
 static bool is_taken(const struct ritz_basis *basis, const double share, const unsigned order[3])
 {
     double sum = 0.0;
@@ -419,7 +419,8 @@ void ritz_basis_clear(struct ritz_basis *basis)
     free(basis->place);
 }
 
-/* Along an axis, over half its side: of a derivative and the other, and of two. */
+/* Means along an axis, over half its side: of a derivative and a polynomial, and of two
+ * derivatives. */
 static double mean_slope(const struct ritz_basis *basis, int axis, unsigned i, unsigned j)
 {
     bool held = axis == 0 && basis->line[0];
@@ -433,8 +434,8 @@ static double mean_slopes(const struct ritz_basis *basis, int axis, unsigned i, 
 }
 
 /* Mean over the body of the derivative of one product along axis c and of the other along d. */
-static double mean_of(const struct ritz_basis *basis, const unsigned char a[3], int c,
-                      const unsigned char b[3], int d)
+static double basis_mean(const struct ritz_basis *basis, const unsigned char a[3], int c,
+                         const unsigned char b[3], int d)
 {
     double product = 1.0;
     for (int e = 0; e < (basis->round ? 1 : 3) && product != 0.0; e++) {
@@ -463,9 +464,10 @@ void ritz_basis_stiffness(const struct ritz_basis *basis, const struct ritz_term
         for (size_t i = j; i < n; i++) {
             int c = ritz_component(terms, i);
             const unsigned char *a = terms->order[i], *b = terms->order[j];
-            double sum = lambda * mean_of(basis, a, c, b, d) + mu * mean_of(basis, a, d, b, c);
+            double sum =
+                lambda * basis_mean(basis, a, c, b, d) + mu * basis_mean(basis, a, d, b, c);
             for (int e = 0; c == d && e < 3; e++)
-                sum += mu * mean_of(basis, a, e, b, e);
+                sum += mu * basis_mean(basis, a, e, b, e);
             k[j * n + i] = sum;
         }
     }

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Most of a circle along y or z. */
+/* Largest number of polynomials of a circle along y or z. */
 enum { POLYNOMIAL_MOST = 40 };
 
 /* Legendre's, of mean square 1 over [-1, 1]. */
@@ -21,8 +21,8 @@ void polynomial_legendre(size_t count, double x, double *value);
 void polynomial_held(size_t count, const bool held[2], double x, double *value, double *slope);
 
 /* Zernike's of mean square 1 over the circle of radius 1, in the place of y^q z^r, q + r < count:
- * sqrt((2) (n + 1)) R_n^m(radius) cos(m angle) or sin, n = q + r; cosines where r is even, whose
- * parities are those of y^q z^r. R_n^m(s) = s^m P_k(2 s^2 - 1), P_k Jacobi's of (0, m), k = (n -
+ * sqrt((2) (n + 1)) R_n^m(radius) cos(m angle) or sin, n = q + r; cosines where r is even, with
+ * the parities of y^q z^r. R_n^m(s) = s^m P_k(2 s^2 - 1), P_k Jacobi's of (0, m), k = (n -
  * m)/2. With derivatives along y and z where these are not NULL; [q][r], POLYNOMIAL_MOST long. */
 void polynomial_zernike(size_t count, double y, double z, double *value, double *along_y,
                         double *along_z);
@@ -64,8 +64,8 @@ bool ritz_basis_prepare(struct ritz_basis *basis);
 void ritz_basis_drop_means(struct ritz_basis *basis);
 void ritz_basis_clear(struct ritz_basis *basis);
 
-/* The products of class `number` into zeroed terms, whose `order` the caller frees. False: out of
- * memory. */
+/* Writes the products of class `number` into zeroed terms; the caller frees their `order`. False:
+ * out of memory. */
 bool ritz_basis_list(const struct ritz_basis *basis, int number, struct ritz_terms *terms);
 
 /* The component of a product. */

@@ -10,7 +10,7 @@
 
 #include "base/watch.h"
 
-/* Places on one whose flexibility is kept. */
+/* Cached flexibilities of a box, one for each place. */
 enum { PLACES = 64 };
 
 struct ritz_box {
@@ -34,13 +34,13 @@ struct ritz_store {
     struct ritz_box *boxes; /* the one asked for last first */
 };
 
-static void take(struct ritz_store *store)
+static void store_take(struct ritz_store *store)
 {
     while (atomic_flag_test_and_set_explicit(&store->taken, memory_order_acquire))
         thrd_yield();
 }
 
-static void give_back(struct ritz_store *store)
+static void store_give_back(struct ritz_store *store)
 {
     atomic_flag_clear_explicit(&store->taken, memory_order_release);
 }
@@ -60,9 +60,9 @@ struct ritz_store *ritz_store_share(struct ritz_store *store)
 {
     if (!store)
         return NULL;
-    take(store);
+    store_take(store);
     store->owners++;
-    give_back(store);
+    store_give_back(store);
     return store;
 }
 
@@ -73,7 +73,7 @@ static void free_box(struct ritz_box *box)
 }
 
 /* With the store taken: drops the oldest boxes that are not held, beyond so many bytes. */
-static void trim(struct ritz_store *store, size_t bytes)
+static void store_trim(struct ritz_store *store, size_t bytes)
 {
     size_t kept = 0;
     for (struct ritz_box **link = &store->boxes; *link;) {
@@ -93,12 +93,12 @@ void ritz_store_free(struct ritz_store *store)
 {
     if (!store)
         return;
-    take(store);
+    store_take(store);
     bool last = --store->owners == 0;
-    give_back(store);
+    store_give_back(store);
     if (!last)
         return;
-    trim(store, 0);
+    store_trim(store, 0);
     free(store);
 }
 
@@ -109,8 +109,8 @@ static bool same_shape(const struct ritz_shape *a, const struct ritz_shape *b)
 }
 
 /* With the store taken: removes the box of these proportions from the list; NULL: there is none. */
-static struct ritz_box *take_out(struct ritz_store *store, const struct ritz_shape *shape,
-                                 double poisson)
+static struct ritz_box *store_take_out(struct ritz_store *store, const struct ritz_shape *shape,
+                                       double poisson)
 {
     for (struct ritz_box **link = &store->boxes; *link; link = &(*link)->next) {
         struct ritz_box *box = *link;
@@ -131,11 +131,11 @@ static void put_first(struct ritz_store *store, struct ritz_box *box)
 /* The box of these proportions. *mine: it is new, held, and the caller computes it. *ready: it is
  * computed and held. Neither: another thread computes it, and it is not held. NULL: out of memory.
  */
-static struct ritz_box *find(struct ritz_store *store, const struct ritz_shape *shape,
-                             double poisson, bool *mine, bool *ready)
+static struct ritz_box *store_find(struct ritz_store *store, const struct ritz_shape *shape,
+                                   double poisson, bool *mine, bool *ready)
 {
-    take(store);
-    struct ritz_box *box = take_out(store, shape, poisson);
+    store_take(store);
+    struct ritz_box *box = store_take_out(store, shape, poisson);
     *mine = !box;
     if (!box && (box = calloc(1, sizeof *box))) {
         box->shape = *shape;
@@ -146,23 +146,24 @@ static struct ritz_box *find(struct ritz_store *store, const struct ritz_shape *
         box->holders += *mine || *ready;
         put_first(store, box);
     }
-    give_back(store);
+    store_give_back(store);
     return box;
 }
 
 /* Computes a new box. NULL: out of memory, or stopped; the box is gone. */
-static struct ritz_box *compute(struct ritz_store *store, struct ritz_box *box, struct pace *pace)
+static struct ritz_box *store_compute(struct ritz_store *store, struct ritz_box *box,
+                                      struct pace *pace)
 {
     struct ritz *made = ritz_create(&box->shape, box->poisson, pace);
-    take(store);
+    store_take(store);
     if (made) {
         box->ritz = made;
         store->computed++;
-        trim(store, store->bytes);
+        store_trim(store, store->bytes);
     } else {
-        take_out(store, &box->shape, box->poisson);
+        store_take_out(store, &box->shape, box->poisson);
     }
-    give_back(store);
+    store_give_back(store);
     if (made)
         return box;
     free_box(box);
@@ -175,11 +176,11 @@ struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_sha
     const struct timespec millisecond = {.tv_nsec = 1000000};
     for (;;) {
         bool mine, ready;
-        struct ritz_box *box = find(store, shape, poisson, &mine, &ready);
+        struct ritz_box *box = store_find(store, shape, poisson, &mine, &ready);
         if (!box || ready)
             return box;
         if (mine)
-            return compute(store, box, pace);
+            return store_compute(store, box, pace);
         if (!pace_ask(pace, 0.0))
             return NULL;
         thrd_sleep(&millisecond, NULL);
@@ -188,10 +189,10 @@ struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_sha
 
 void ritz_store_release(struct ritz_store *store, struct ritz_box *box)
 {
-    take(store);
+    store_take(store);
     box->holders--;
-    trim(store, store->bytes);
-    give_back(store);
+    store_trim(store, store->bytes);
+    store_give_back(store);
 }
 
 const struct ritz *ritz_box_vibration(const struct ritz_box *box)
@@ -200,8 +201,8 @@ const struct ritz *ritz_box_vibration(const struct ritz_box *box)
 }
 
 /* With the store taken. */
-static const struct place *find_place(const struct ritz_box *box, int axis, int side,
-                                      const double point[3])
+static const struct place *box_find_place(const struct ritz_box *box, int axis, int side,
+                                          const double point[3])
 {
     for (size_t i = 0; i < PLACES; i++) {
         const struct place *place = &box->places[i];
@@ -215,25 +216,25 @@ static const struct place *find_place(const struct ritz_box *box, int axis, int 
 double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                             const double point[3])
 {
-    take(store);
-    const struct place *known = find_place(box, axis, side, point);
+    store_take(store);
+    const struct place *known = box_find_place(box, axis, side, point);
     double flexibility = known ? known->flexibility : 0.0;
-    give_back(store);
+    store_give_back(store);
     if (known)
         return flexibility;
     flexibility = ritz_flexibility(box->ritz, axis, side, point);
-    take(store);
+    store_take(store);
     struct place *place = &box->places[box->next_place++ % PLACES];
     *place = (struct place){.axis = axis, .side = side, .flexibility = flexibility};
     memcpy(place->point, point, sizeof place->point);
-    give_back(store);
+    store_give_back(store);
     return flexibility;
 }
 
 unsigned long ritz_store_computed(struct ritz_store *store)
 {
-    take(store);
+    store_take(store);
     unsigned long computed = store->computed;
-    give_back(store);
+    store_give_back(store);
     return computed;
 }

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Vibrations of boxes and cylinders (ritz.h) that threads share: each is computed once, and kept
- * while a thread holds it, or while there is room. */
+/* Vibrations of boxes and cylinders (ritz.h), shared by threads: each is computed once, and cached
+ * while a thread holds it or while there is room. */
 #ifndef PERCUSS_MODEL_RITZ_STORE_H
 #define PERCUSS_MODEL_RITZ_STORE_H
 
@@ -29,12 +29,12 @@ struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_sha
                                  double poisson, struct pace *pace);
 void ritz_store_release(struct ritz_store *store, struct ritz_box *box);
 
-/* Both of a box that is held. The second one is ritz_flexibility, kept for the last places. */
+/* The vibration of a held box; and its ritz_flexibility, cached for the last places. */
 const struct ritz *ritz_box_vibration(const struct ritz_box *box);
 double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                             const double point[3]);
 
-/* How many it has computed so far. */
+/* Number of vibrations computed so far. */
 unsigned long ritz_store_computed(struct ritz_store *store);
 
 #endif

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Where on a body a contact is: from a point and a normal in the world to a place on its surface.
- */
+/* The place of a contact on a body: from a point and a normal in the world to a place on its
+ * surface. */
 #ifndef PERCUSS_MODEL_SITE_H
 #define PERCUSS_MODEL_SITE_H
 
@@ -11,7 +11,7 @@
 #include "base/fault.h"
 #include "model/body.h"
 
-/* Smooth pieces of surfaces, as one point near them sees them. */
+/* Smooth pieces of a surface near a point. */
 enum site_face {
     SITE_ROUND,     /* sphere, side of a cylinder, plane of a half-space or block */
     SITE_BEAM_SIDE, /* lateral surface of a rod or beam */
@@ -38,13 +38,13 @@ struct face {
     double curvature[9]; /* symmetric tensor, 1/m; 0 where flat */
     double distance;     /* of the point, along the outward normal */
     struct face_spot spot;
-    double beyond; /* how far the foot of the point lies beyond the face's edge; <= 0: on it */
+    double beyond; /* distance of the point's foot beyond the face's edge; <= 0: on the face */
 };
 
-/* All in the body frame, for the point p; kind SITE_ROUND; a plane's and a ball's edges are to be
- * set by whoever knows them. */
+/* All in the body frame, for the point p; kind SITE_ROUND; the caller sets the edges of a plane and
+ * a ball. */
 
-/* The plane `offset` from the origin whose normal is the axis 0, 1, 2 with a sign. */
+/* The plane `offset` from the origin, normal to the axis 0, 1, 2, with a sign. */
 struct face face_plane(int axis, double sign, double offset, const double p[3]);
 
 /* Sphere of a radius about (x, 0, 0). */
