@@ -5,31 +5,31 @@
 
 #include <string.h>
 
-void body_state_make_room(const struct roll *roll, struct body_state *sizes)
+void body_state_make_room(const struct bending_axes *axes, struct body_state *sizes)
 {
-    size_t *y = &sizes->count[roll->first];
+    size_t *y = &sizes->count[axes->first];
     size_t *z = y + 1;
-    if (roll->sine != 0.0)
+    if (axes->sine != 0.0)
         *y = *z = *y > *z ? *y : *z;
     /* modes that one family does not know are unknown in both */
-    y = &sizes->known[roll->first];
+    y = &sizes->known[axes->first];
     z = y + 1;
-    if (roll->sine != 0.0)
+    if (axes->sine != 0.0)
         *y = *z = *y < *z ? *y : *z;
 }
 
-static void turn_planes(const struct roll *roll, struct body_state *state)
+static void turn_planes(const struct bending_axes *axes, struct body_state *state)
 {
-    double *y = (double *)body_state_family(state, roll->first);
-    double *z = (double *)body_state_family(state, roll->first + 1);
-    roll_coordinates(roll, 2 * state->count[roll->first], y, z);
+    double *y = (double *)body_state_family(state, axes->first);
+    double *z = (double *)body_state_family(state, axes->first + 1);
+    bending_axes_turn(axes, 2 * state->count[axes->first], y, z);
 }
 
-const struct body_state *body_state_turned(const struct body_state *state, const struct roll *roll,
-                                           struct arena *arena)
+const struct body_state *body_state_turned(const struct body_state *state,
+                                           const struct bending_axes *axes, struct arena *arena)
 {
     struct body_state sizes = *state;
-    body_state_make_room(roll, &sizes);
+    body_state_make_room(axes, &sizes);
     struct body_state *turned = arena_take(arena, 1, body_state_size(&sizes));
     if (!turned)
         return NULL;
@@ -39,13 +39,13 @@ const struct body_state *body_state_turned(const struct body_state *state, const
                2 * state->count[f] * sizeof *state->coordinates);
     memcpy((struct dent *)body_state_dents(turned), body_state_dents(state),
            state->dents * sizeof(struct dent));
-    turn_planes(roll, turned);
+    turn_planes(axes, turned);
     return turned;
 }
 
-void body_state_turn_back(const struct roll *roll, struct body_state *state)
+void body_state_turn_back(const struct bending_axes *axes, struct body_state *state)
 {
-    const struct roll back = {roll->first, roll->cosine, -roll->sine};
-    if (roll->sine != 0.0)
+    const struct bending_axes back = {axes->first, axes->cosine, -axes->sine};
+    if (axes->sine != 0.0)
         turn_planes(&back, state);
 }

@@ -10,7 +10,7 @@
 
 #include "base/arena.h"
 #include "contact/law.h"
-#include "model/roll.h"
+#include "model/bending_axes.h"
 
 /* A patch of the surface that yielded; it affects contacts within `size` of its middle. */
 struct dent {
@@ -67,14 +67,15 @@ static inline const struct dent *body_state_dents(const struct body_state *state
     return (const struct dent *)body_state_family(state, BODY_MOST_FAMILIES);
 }
 
-/* Enlarges the sizes of a state for its rotation by a roll: equal in both bending families. */
-void body_state_make_room(const struct roll *roll, struct body_state *sizes);
+/* Enlarges the sizes of a state for its rotation by principal axes: equal in both bending families.
+ */
+void body_state_make_room(const struct bending_axes *axes, struct body_state *sizes);
 
-/* A copy with the modes in the planes of the roll, from the arena; dents stay. NULL: no memory. */
-const struct body_state *body_state_turned(const struct body_state *state, const struct roll *roll,
-                                           struct arena *arena);
+/* A copy with the modes in the planes of the axes, from the arena; dents stay. NULL: no memory. */
+const struct body_state *body_state_turned(const struct body_state *state,
+                                           const struct bending_axes *axes, struct arena *arena);
 
 /* Turns a state of such sizes back into the body's own planes. */
-void body_state_turn_back(const struct roll *roll, struct body_state *state);
+void body_state_turn_back(const struct bending_axes *axes, struct body_state *state);
 
 #endif

@@ -141,7 +141,7 @@ struct body_kind {
                  struct site_load *load);
 
     /* Whether two families, *first and the next, are alike, so that they may be turned about the
-     * body's axis into the plane of a load (roll.h); NULL: none are. */
+     * body's axis into the plane of a load (bending_axes.h); NULL: none are. */
     bool (*alike)(const struct body *body, size_t *first);
 
     /* The material at a site; NULL: the body's. */

@@ -302,18 +302,18 @@ static enum percuss_status check_approach(const struct problem *problem, struct 
 /* The planes of a body's modes: those that the first load that bends it excites. */
 static void choose_planes(struct problem *problem, size_t body)
 {
-    const struct body *rolled = problem->bodies[body];
-    struct roll *roll = &problem->rolls[body];
+    const struct body *bent = problem->bodies[body];
+    struct bending_axes *axes = &problem->axes[body];
     bool chosen = false;
-    *roll = (struct roll){0, 1.0, 0.0};
+    *axes = (struct bending_axes){0, 1.0, 0.0};
     for (size_t i = 0; !chosen && i < 2 * problem->contact_count; i++) {
         const struct contact_side *side = &problem->sides[i / 2][i % 2];
-        chosen = side->body == body && roll_choose(rolled, &side->load, roll);
+        chosen = side->body == body && bending_axes_choose(bent, &side->load, axes);
     }
-    for (size_t i = 0; roll->sine != 0.0 && i < 2 * problem->contact_count; i++) {
+    for (size_t i = 0; axes->sine != 0.0 && i < 2 * problem->contact_count; i++) {
         struct contact_side *side = &problem->sides[i / 2][i % 2];
         if (side->body == body)
-            roll_load(rolled, roll, &side->load);
+            bending_axes_turn_load(bent, axes, &side->load);
     }
 }
 
@@ -325,8 +325,8 @@ static bool choose_all_planes(struct problem *problem)
         const struct body_state *state = problem->request->bodies[b].state;
         choose_planes(problem, b);
         problem->states[b] = state;
-        if (state && problem->rolls[b].sine != 0.0)
-            problem->states[b] = body_state_turned(state, &problem->rolls[b], problem->arena);
+        if (state && problem->axes[b].sine != 0.0)
+            problem->states[b] = body_state_turned(state, &problem->axes[b], problem->arena);
         if (state && !problem->states[b])
             return false;
     }

@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "fe/matched.h"
+#include "model/bending_axes.h"
 #include "model/damping.h"
 #include "model/ritz_store.h"
-#include "model/roll.h"
 
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
 enum { OCTAVES = 11 };
@@ -258,7 +258,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
     if (!entry)
         return NULL;
     /* families that are alike share theirs */
-    family = roll_common_family(body, family);
+    family = bending_axes_common_family(body, family);
     size_t most = modal_family_most(body, family);
     if (count > most)
         count = most;

@@ -36,7 +36,7 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 void prepared_cache_forget(struct prepared_cache *cache, const char *id);
 
 /* At least `count` modes of a family of a body (of the revision in use); families that are alike
- * (roll.h) share theirs. The result stays valid
+ * (bending_axes.h) share theirs. The result stays valid
  * until the next prepared_cache_use. NULL: out of memory. */
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, size_t family,

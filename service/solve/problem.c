@@ -21,9 +21,9 @@ struct problem *problem_create(const struct solve_request *request, struct prepa
     size_t bodies = request->body_count;
     problem->bodies = arena_take(arena, bodies, sizeof *problem->bodies);
     problem->poses = arena_take(arena, bodies, sizeof *problem->poses);
-    problem->rolls = arena_take(arena, bodies, sizeof *problem->rolls);
+    problem->axes = arena_take(arena, bodies, sizeof *problem->axes);
     problem->states = arena_take(arena, bodies, sizeof *problem->states);
-    bool whole = problem->bodies && problem->poses && problem->rolls && problem->states;
+    bool whole = problem->bodies && problem->poses && problem->axes && problem->states;
     return whole ? problem : NULL;
 }
 

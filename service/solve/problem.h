@@ -10,8 +10,8 @@
 #include "base/arena.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
+#include "model/bending_axes.h"
 #include "model/modal_basis.h"
-#include "model/roll.h"
 #include "model/site.h"
 #include "solve/prepared.h"
 #include "solve/request.h"
@@ -59,7 +59,7 @@ struct problem {
     size_t body_count, contact_count;
     const struct body **bodies;
     struct pose *poses;
-    struct roll *rolls;               /* of their planes of bending */
+    struct bending_axes *axes;        /* of their planes of bending */
     const struct body_state **states; /* initial, in those planes; NULL: none */
     struct contact_side (*sides)[2];  /* [contact]: a, b */
     struct hertz_contact *hertz;      /* [contact] */

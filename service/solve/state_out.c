@@ -132,7 +132,7 @@ const struct body_state *state_after(const struct assembly *assembly,
     for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         sizes.count[f] = family_size(assembly, problem->states[body], body, f);
     /* one block of it */
-    body_state_make_room(&problem->rolls[body], &sizes);
+    body_state_make_room(&problem->axes[body], &sizes);
     struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
@@ -140,7 +140,7 @@ const struct body_state *state_after(const struct assembly *assembly,
     /* filled */
     if (flexible) {
         fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
-        body_state_turn_back(&problem->rolls[body], state);
+        body_state_turn_back(&problem->axes[body], state);
     }
     if (sizes.dents)
         memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);

@@ -254,9 +254,9 @@ void start_error_after(const struct problem *problem, const struct solution *sol
     for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         state->known[f] = known_after(problem, solution, body, f);
     /* both planes of a state that was turned back lack the modes of either */
-    const struct roll *roll = &problem->rolls[body];
-    size_t *planes = &state->known[roll->first];
-    if (roll->sine != 0.0)
+    const struct bending_axes *axes = &problem->rolls[body];
+    size_t *planes = &state->known[axes->first];
+    if (axes->sine != 0.0)
         planes[0] = planes[1] = planes[0] < planes[1] ? planes[0] : planes[1];
     state->unknown_model = share_after(share_of(problem, body, true), before, shares->model,
                                        start->vibration[true][body], after);

@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/roll.c: a load across a round beam excites one family alone after the turn,
- * with the same compliance, and turning back is the inverse. */
+/* Mirrors service/model/bending_axes.c: a load across a round beam excites one family alone after
+ * the turn, with the same compliance, and turning back is the inverse. */
 #include "check.h"
 #include "model/bar.h"
-#include "model/roll.h"
+#include "model/bending_axes.h"
 
 static struct body beam(double width, double height)
 {
@@ -45,15 +45,15 @@ static void one_plane_does_for_a_round_section(void **state)
     for (double angle = -3.0; angle < 3.1; angle += 0.37) {
         struct site_load load = blow(&round, angle);
         double before = compliance(&round, &load);
-        struct roll roll;
-        assert_true(roll_choose(&round, &load, &roll));
-        roll_load(&round, &roll, &load);
+        struct bending_axes axes;
+        assert_true(bending_axes_choose(&round, &load, &axes));
+        bending_axes_turn_load(&round, &axes, &load);
         assert_false(load.family[BAR_BENDING_Y].acts);
         near(fabs(load.family[BAR_BENDING_Z].bar.force), 1.0, 1e-15);
         near(compliance(&round, &load), before, 1e-15 * before);
     }
-    assert_int_equal(roll_common_family(&round, BAR_BENDING_Z), BAR_BENDING_Y);
-    assert_int_equal(roll_common_family(&round, BAR_TWIST), BAR_TWIST);
+    assert_int_equal(bending_axes_common_family(&round, BAR_BENDING_Z), BAR_BENDING_Y);
+    assert_int_equal(bending_axes_common_family(&round, BAR_TWIST), BAR_TWIST);
 }
 
 static void unlike_planes_stay(void **state)
@@ -62,26 +62,26 @@ static void unlike_planes_stay(void **state)
     struct body flat = beam(0.04, 0.01), square = beam(0.02, 0.02), rod = beam(0.0, 0.0);
     rod.kind = &rod_kind;
     struct site_load load = blow(&flat, 0.5);
-    struct roll roll;
-    assert_false(roll_choose(&flat, &load, &roll));
-    assert_true(roll.cosine == 1.0 && roll.sine == 0.0);
-    assert_false(roll_choose(&rod, &load, &roll));
-    assert_int_equal(roll_common_family(&flat, BAR_BENDING_Z), BAR_BENDING_Z);
-    assert_true(roll_choose(&square, &load, &roll) && roll.sine != 0.0);
+    struct bending_axes axes;
+    assert_false(bending_axes_choose(&flat, &load, &axes));
+    assert_true(axes.cosine == 1.0 && axes.sine == 0.0);
+    assert_false(bending_axes_choose(&rod, &load, &axes));
+    assert_int_equal(bending_axes_common_family(&flat, BAR_BENDING_Z), BAR_BENDING_Z);
+    assert_true(bending_axes_choose(&square, &load, &axes) && axes.sine != 0.0);
     /* rounding of the pose turns nothing */
     load = blow(&square, 1e-10);
-    assert_true(roll_choose(&square, &load, &roll) && roll.sine == 0.0);
+    assert_true(bending_axes_choose(&square, &load, &axes) && axes.sine == 0.0);
 }
 
 static void coordinates_turn_there_and_back(void **state)
 {
     (void)state;
-    const struct roll there = {BAR_BENDING_Y, 0.6, 0.8}, back = {BAR_BENDING_Y, 0.6, -0.8};
+    const struct bending_axes there = {BAR_BENDING_Y, 0.6, 0.8}, back = {BAR_BENDING_Y, 0.6, -0.8};
     double y[] = {1.0, 0.0, -2.5}, z[] = {0.0, 1.0, 4.0};
-    roll_coordinates(&there, 3, y, z);
+    bending_axes_turn(&there, 3, y, z);
     near(y[1], -0.8, 0.0);
     near(z[0], 0.8, 0.0);
-    roll_coordinates(&back, 3, y, z);
+    bending_axes_turn(&back, 3, y, z);
     near(y[2], -2.5, 1e-15);
     near(z[2], 4.0, 1e-15);
 }
