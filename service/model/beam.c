@@ -148,9 +148,9 @@ static const enum beam_quantity held_quantities[][2] = {
     [SUPPORT_CLAMPED] = {BEAM_DEFLECTION, BEAM_SLOPE},
 };
 
-/* Size of those of a quantity's values that carry the rounding of a phase, a sine or a cosine of
- * many turns. Divided by it every condition is equally uncertain, and the one with the largest
- * values left is the one to solve; the hyperbolic values are good to the last bits. */
+/* Size of the values of a quantity that carry the rounding of a phase, a sine or a cosine of many
+ * turns. Divided by it all conditions are equally uncertain, and elimination takes the one with the
+ * largest remaining values; the hyperbolic values are good to the last bits. */
 static double uncertainty_of(const struct beam_wave *wave, enum beam_quantity quantity)
 {
     double hyper = wave->alpha_squared < 0.0 ? wave->hyper : 0.0;
@@ -544,7 +544,8 @@ static double sinh_excess(double x_squared)
     return sum;
 }
 
-/* Integrals over s of products of the solutions; those of even with odd ones vanish. */
+/* Integrals over s of products of the solutions; an even one times an odd one has the integral 0.
+ */
 struct products {
     double cc, pp;       /* C^2, P^2 */
     double cos2, sin2;   /* cos(beta s)^2, sin(beta s)^2 */
@@ -599,7 +600,8 @@ static double squared_norm(const struct beam_wave *wave, double inertia, const d
            2.0 * (odd[0] * odd[1] + inertia * even_slope[0] * even_slope[1]) * is.p_sin;
 }
 
-/* The first quantity that the right support leaves free; its sign there is made positive. */
+/* The first quantity that the right support does not hold; the mode's sign makes it positive there.
+ */
 static double right_end_value(const struct beam_wave *wave, enum support support,
                               const double amplitudes[4])
 {

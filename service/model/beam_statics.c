@@ -162,12 +162,11 @@ double beam_compliance(const struct beam_plane *plane, const struct beam_load *i
     return square * plane->length / plane->bending_stiffness * sum;
 }
 
-/* The side of a bent bar: the deformation of its section, and the compliance of the place that is
- * hit beside that. */
+/* The side of a bent bar: the deformation of its section, and the remaining compliance of the
+ * loaded place. */
 
-/* The mean of psi' is taken over so much of the section's longer side: with that the modes of
- * meshes move their sides as beam_side_load says to 1 % up to waves of 1.8 heights
- * (docs/accuracy.md). */
+/* Window of the mean of psi', in longer sides of the section: with it beam_side_load moves a side
+ * as the modes of meshes do, to 1 % up to waves of 1.8 heights (docs/accuracy.md). */
 static const double WINDOW = 0.7;
 
 /* The remainder of the static compliance under a point force on a mesh of the bar (its half-space

@@ -19,9 +19,9 @@ struct bending_axes {
 /* The first of two families that are alike, if this is one of them; the family itself otherwise. */
 size_t bending_axes_common_family(const struct body *body, size_t family);
 
-/* Whether the load excites families that may be turned; *axes: those of which it excites the second
- * family alone. Planes closer to the body's own than 1e-9 rad count as these: rounding of the pose.
- */
+/* Whether the load excites families that may be turned; *axes: such that it excites the second
+ * family alone. Planes closer to the body's own than 1e-9 rad are taken as these: rounding of the
+ * pose. */
 bool bending_axes_choose(const struct body *body, const struct site_load *load,
                          struct bending_axes *axes);
 

@@ -132,9 +132,9 @@ static double hutchinson_factor(const struct body *body, int along)
 }
 
 /* Three-dimensional finite elements of a round bar have Hutchinson's frequencies to 2e-5 (first)
- * and 1.6e-3 (28 kHz), where Cowper's are 1 % low. Flat strips (a width of 2.4 heights at poisson
- * 0.3) and strongly auxetic metals come near a pole of Hutchinson's quotient, which shows as a
- * factor above 1: there Cowper's stands in. */
+ * and 1.6e-3 (28 kHz); Cowper's are 1 % low. Flat strips (a width of 2.4 heights at poisson 0.3)
+ * and strongly auxetic metals come near a pole of Hutchinson's quotient, with a factor above 1:
+ * there Cowper's is used. */
 static double default_factor(const struct body *body, int along)
 {
     double factor = hutchinson_factor(body, along);

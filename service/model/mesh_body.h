@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A body reduced from a mesh, as its file (mesh/body_file.h) holds it: immutable, shared by all
- * variants of the body. Axes are the mesh's; the origin is the centre of mass. */
+/* A body reduced from a mesh, with the contents of its file (mesh/body_file.h): immutable, shared
+ * by all variants of the body. Axes are the mesh's; the origin is the centre of mass. */
 #ifndef PERCUSS_MODEL_MESH_BODY_H
 #define PERCUSS_MODEL_MESH_BODY_H
 
@@ -78,7 +78,7 @@ struct mesh_body {
     /* search structures of the surface: mesh_surface_prepare makes them from the faces */
     size_t box_count;
     struct mesh_box *boxes; /* a tree */
-    unsigned *order;        /* [face_count]: faces as its leaves have them */
+    unsigned *order;        /* [face_count]: faces in the order of the leaves */
     size_t patch_count;
     size_t *rim_first; /* [patch_count + 1]: a patch's sharp edges are rims[rim_first[p]] .. */
     struct mesh_rim *rims;

@@ -231,8 +231,8 @@ static void push_tangents(const double n[3], double t[2][3])
     cross3(n, t[0], t[1]);
 }
 
-/* Weights that are those of the plane fitted to the neighbours, the nearer the more (moving least
- * squares): with p = (1, x, y) of each, w_a = g_a p_a . A^-1 e_1, A = sum g p p^T. False: they lie
+/* Weights of the plane fitted to the neighbours, larger for nearer ones (moving least squares):
+ * with p = (1, x, y) of each, w_a = g_a p_a . A^-1 e_1, A = sum g p p^T. False: the neighbours lie
  * on a line. */
 static bool fit_plane(const struct mesh_body *mesh, const struct mesh_push *push, struct mean *mean,
                       const double distances[NEIGHBOURS])

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The elastic modes of a body that was reduced from a mesh, or of a box (ritz.h), with the static
- * compliance that they do not hold: one family, of as many modes as there are. */
+/* The elastic modes of a body that was reduced from a mesh, or of a box (ritz.h), and the static
+ * compliance beyond them: one family with a finite number of modes. */
 #ifndef PERCUSS_MODEL_MESH_FAMILY_H
 #define PERCUSS_MODEL_MESH_FAMILY_H
 
@@ -39,8 +39,8 @@ extern const struct mode_family *const mesh_family_alone[1];
                      "mass, inertia and surface only: the error states what its vibration takes")  \
     }
 
-/* The box of a body of three sides, its ends held as its supports say. False: beyond Ritz's reach.
- */
+/* The box of a body with three sides; its supports hold its ends. False: beyond the reach of Ritz's
+ * method. */
 bool mesh_family_box(const struct body *body, struct ritz_shape *shape);
 
 /* Modulus, density and size of a body over those of its file (mesh) or over 1 (box). */

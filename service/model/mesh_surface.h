@@ -31,8 +31,8 @@ struct mesh_spot {
 /* Makes the search structures of a body. False: out of memory. */
 bool mesh_surface_prepare(struct mesh_body *body);
 
-/* The nearest place, and the nearest ones of other patches within `beside` of it where it is no
- * farther than that from an edge; by distance. Their number, at most `most`. */
+/* Writes the nearest place and, if it is within `beside` of an edge, the nearest places of other
+ * patches that are at most `beside` farther, by distance. Returns their number, at most `most`. */
 int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
                       struct mesh_place *places, int most);
 

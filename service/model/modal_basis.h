@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Modes and static compliance of a body as a contact on it sees them. */
+/* Modes and static compliance of a body for the contacts on it. */
 #ifndef PERCUSS_MODEL_MODAL_BASIS_H
 #define PERCUSS_MODEL_MODAL_BASIS_H
 

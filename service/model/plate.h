@@ -15,8 +15,8 @@ struct plate {
     double mass;             /* kg */
 };
 
-/* Share of the energy of an approach with the reduced mass (kg) that a force like half a sine of
- * this duration (s) leaves in bending: flexural waves of a large plate (Zener 1941), the modes of a
+/* Share of the energy of an approach with the reduced mass (kg) that a half-sine force of this
+ * duration (s) leaves in bending: flexural waves of a large plate (Zener 1941), the modes of a
  * small one or of a bar. To first order: it may exceed 1. */
 double plate_share(const struct plate *plate, double reduced, double duration);
 

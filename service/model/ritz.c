@@ -41,7 +41,7 @@ struct ritz {
 
 /* Thinner boxes would need polynomials of a higher degree than is numerically stable. */
 static const double THINNEST = 1.0 / 200.0;
-/* Polynomials beyond pi for each wave, until frequencies are good to 1e-3. */
+/* Polynomials beyond pi for each wave with which frequencies are good to 1e-3. */
 static const double SPARE = 3.0;
 
 bool ritz_reaches(const struct ritz_shape *shape)
@@ -365,8 +365,8 @@ struct push {
     double *force;    /* [component][order along x][y][z]: minus its traction on the products */
 };
 
-/* A field in equilibrium with minus the inertia of a rigid motion that leaves the loaded face free
- * and moves the loaded point not: it turns the integral of the half-space's field over the body
+/* A field in equilibrium with minus the inertia of a rigid motion; it leaves the loaded face free
+ * and does not move the loaded point. It turns the integral of the half-space's field over the body
  * into ones over the other faces (Betti). Coordinates: x along `other`, z along the outward normal
  * from the middle; other = the axis itself: along the normal. */
 static void reciprocal(const struct push *push, int other, const double at[3], double u[3],

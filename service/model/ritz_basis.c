@@ -255,7 +255,7 @@ bool ritz_basis_list(const struct ritz_basis *basis, int number, struct ritz_ter
     for (int d = 0; d < 3; d++)
         plate = plate && (d == thin || n[d] - (d == 0 ? basis->lifted : 0) > 2 * ACROSS);
     double share = plate && stretches(number, thin) ? STRETCHED : 1.0;
-    /* where one face is held both parities of x stand in the classes of the even one */
+    /* with one face held, the classes of the even parity of x have both parities */
     if (all && (number & 1))
         return true;
     if (all)

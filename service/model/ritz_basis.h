@@ -38,8 +38,8 @@ struct ritz_basis {
     bool held[2];
     double side[3], volume;
     size_t orders[3]; /* polynomials along each side; of x, where it is held, those that vanish */
-    size_t lifted;    /* so many of them are lower than those of the held box beside it */
-    bool mixed;       /* classes of that box hold both parities of x */
+    size_t lifted;    /* free box of a held one: its additional polynomials in x */
+    bool mixed;       /* classes of the held box have both parities of x */
     double *line[2];  /* of a held box: means along x, until they are dropped */
     size_t *place, places; /* of Zernike's polynomials, [q][r] */
     double *means[5];      /* of a circle, until they are dropped */

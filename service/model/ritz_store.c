@@ -27,7 +27,7 @@ struct ritz_box {
 };
 
 struct ritz_store {
-    atomic_flag taken; /* of all below, for as long as a list is searched */
+    atomic_flag taken; /* lock of the members below, while a list is searched */
     unsigned owners;
     size_t bytes;
     unsigned long computed;
@@ -72,7 +72,7 @@ static void free_box(struct ritz_box *box)
     free(box);
 }
 
-/* With the store taken: drops the oldest boxes that are not held, beyond so many bytes. */
+/* With the store locked: drops the oldest boxes that no thread holds, beyond this many bytes. */
 static void store_trim(struct ritz_store *store, size_t bytes)
 {
     size_t kept = 0;
@@ -108,7 +108,8 @@ static bool same_shape(const struct ritz_shape *a, const struct ritz_shape *b)
            memcmp(a->side, b->side, sizeof a->side) == 0;
 }
 
-/* With the store taken: removes the box of these proportions from the list; NULL: there is none. */
+/* With the store locked: removes the box of these proportions from the list; NULL: there is none.
+ */
 static struct ritz_box *store_take_out(struct ritz_store *store, const struct ritz_shape *shape,
                                        double poisson)
 {
@@ -200,7 +201,7 @@ const struct ritz *ritz_box_vibration(const struct ritz_box *box)
     return box->ritz;
 }
 
-/* With the store taken. */
+/* With the store locked. */
 static const struct place *box_find_place(const struct ritz_box *box, int axis, int side,
                                           const double point[3])
 {
