@@ -9,8 +9,8 @@
 # Exit code 77: this machine does not let it, and the reason is said.
 PERCUSS_SOURCE=$(cd "$(dirname "$0")/.." && pwd)
 here=$PERCUSS_SOURCE/tests
-# shellcheck source=tests/service/lib.sh
-. "$here/service/lib.sh"
+# shellcheck source=tests/service/support/lib.sh
+. "$here/service/support/lib.sh"
 . "$here/documents.sh"
 base=docker.io/library/debian:bookworm-slim
 cd "$source_dir"

@@ -14,7 +14,7 @@
 #include <sys/random.h>
 #include <unistd.h>
 
-/* Domains 20 to 99 and the lock files are those of tests/service/lib.sh. */
+/* Domains 20 to 99 and the lock files are those of tests/service/support/lib.sh. */
 static inline bool domain_lock(uint32_t domain)
 {
     char path[256];

@@ -31,8 +31,8 @@ if [ ! -x "$old/build/bin/percussd" ]; then
 fi
 
 PERCUSS_SOURCE=$here/..
-# shellcheck source=tests/service/lib.sh
-. "$here/service/lib.sh"
+# shellcheck source=tests/service/support/lib.sh
+. "$here/service/support/lib.sh"
 [ -n "$kept" ] || trap 'cleanup; rm -rf "$old"' EXIT
 today=$bin
 # the programs of then do not know PERCUSS_DOMAIN

@@ -5,7 +5,7 @@
 # nothing. PERCUSS_BUILD: the build folder, PERCUSSD: another daemon's program.
 #
 # usage: fairness.sh [SECONDS of each measurement (5)]
-. "$(dirname "$0")/../service/lib.sh"
+. "$(dirname "$0")/../service/support/lib.sh"
 seconds=${1:-5}
 
 crowd=$build/tests/fault/crowd/crowd

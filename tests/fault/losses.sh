@@ -7,7 +7,7 @@
 #
 # usage: losses.sh [REQUESTS of all clients (1000000)] [CLIENTS (16)] [KILLS (100)] [LOSS per thousand (100)]
 #                  [SECONDS between two kills (3)]
-. "$(dirname "$0")/../service/lib.sh"
+. "$(dirname "$0")/../service/support/lib.sh"
 requests=${1:-1000000}
 clients=${2:-16}
 kills=${3:-100}

@@ -5,7 +5,7 @@
 # daemon's memory, threads and descriptors after half of it, three quarters and all. PERCUSS_BUILD: the build folder.
 #
 # usage: passers.sh [CLIENTS that come and go (10000)] [at once (8)] [REQUESTS of two that stay (1000000)]
-. "$(dirname "$0")/../service/lib.sh"
+. "$(dirname "$0")/../service/support/lib.sh"
 passers=${1:-10000}
 together=${2:-8}
 requests=${3:-1000000}

@@ -10,7 +10,7 @@
 # environment: PERCUSS_BUILD, PERCUSS_SOURCE: the build and its sources; PERCUSS_PYTHON: a Python with numpy;
 #   PERCUSS_IN_PROCESS=1: no daemon is asked, but the solver in each asking process
 ask_py=$(cd "$(dirname "$0")" && pwd)/ask.py
-. "$(dirname "$0")/../service/lib.sh"
+. "$(dirname "$0")/../service/support/lib.sh"
 scenes=$(cd "$1" && pwd)
 record=$2
 

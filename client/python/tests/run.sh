@@ -9,7 +9,7 @@ set -eu
     echo "skipped: no virtual environment; see the test python/environment" >&2
     exit 77
 }
-. "$PERCUSS_SOURCE/tests/service/lib.sh"
+. "$PERCUSS_SOURCE/tests/service/support/lib.sh"
 PATH=$PERCUSS_VENV/bin:$PATH
 PERCUSS_DOMAIN=$domain
 PERCUSS_LIBRARY=$build/client/libpercuss.so

@@ -400,7 +400,7 @@ class Mistakes(Beside):
                 percuss.Client(DOMAIN).close()
 
     def test_no_server(self) -> None:
-        # no story's domain: tests/service/lib.sh keeps below 100
+        # no story's domain: tests/service/support/lib.sh keeps below 100
         with self.assertRaises(ConnectionError):
             percuss.connect(domain=229, timeout=0.2)
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* client/cli/domains.c: which domains the ports of a host tell of. That servers are found in them
- * is shown in tests/service/04_no_server.sh. */
+ * is shown in tests/service/ask/no_server.sh. */
 #include "domains.h"
 
 #include <stdio.h>

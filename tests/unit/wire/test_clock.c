@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests idl/wire_clock.c by a time of day that is set here. That threads of DDS are woken is shown
- * in tests/service/44_clock_steps.sh. */
+ * in tests/service/faults/clock_steps.sh. */
 #include "wire_clock.h"
 
 #include <sys/syscall.h>

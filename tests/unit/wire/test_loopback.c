@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* idl/wire_loopback.c: whose sockets get a filter. That it keeps others out is shown in
- * tests/service/28_this_machine_only.sh. */
+ * tests/service/security/this_machine_only.sh. */
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests idl/wire_validity.c: which file of an identity begins last and ends first, and how that is
- * told. What programs do with it is shown in tests/service/50_secured.sh. */
+ * told. What programs do with it is shown in tests/service/security/secured.sh. */
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>

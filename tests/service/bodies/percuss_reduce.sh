@@ -1,0 +1,140 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# percuss-reduce makes a body for the catalogue from a mesh.
+. "$(dirname "$0")/../support/lib.sh"
+. "$support/block_deck.sh"
+
+reduce() { # reduce ARGUMENT...: of the block
+    "$bin/percuss-reduce" "$work/block.inp" --unit mm -o "$work/block.h5" "$@"
+}
+
+block 8 3 2 >"$work/block.inp"
+steel="--young 210GPa --poisson 0.3 --density 7.8g/cm^3"
+
+say "mass, modes and flexibility of a block of 40 x 15 x 10 mm"
+expect 0 reduce $steel --modes 12
+says '12 modes: about'
+shows '48 elements'
+shows 'mass            0.0468 kg'
+shows 'centre          0.02 0.0075 0.005 m'
+shows 'volume          6e-06 m^3'
+shows 'modes           12; by inertia'
+shows 'serves          contacts of'
+shows 'flexibility '
+[ -s "$work/block.h5" ] || fail "no file"
+
+say "the same as JSON, with a file for ParaView; the same body has the same name"
+expect 0 reduce $steel --modes 12 --json --vtk "$work/block.vtu"
+[ "$(field modes)" -eq 12 ] || fail "modes $(field modes)"
+[ "$(field rigid_motions)" -eq 6 ] || fail "rigid motions $(field rigid_motions)"
+awk -v last="$(sed -n 's/.*"frequencies": .*, \([0-9.e+]*\)\].*/\1/p' "$out")" -v good="$(field good_to)" \
+    -v least="$(field shortest_contact)" 'BEGIN {
+        f = last < good ? last : good
+        exit !(least * f > 2.999999 && least * f < 3.000001) }' ||
+    fail "shortest contact $(field shortest_contact) s"
+[ "$(field faces_unknown)" -eq 0 ] || fail "$(field faces_unknown) faces without a flexibility"
+grep -q 'Name="mode 12: ' "$work/block.vtu" || fail "no mode in the file for ParaView"
+first=$(field hash)
+expect 0 reduce $steel --modes 12 --json
+[ "$(field hash)" = "$first" ] || fail "another hash"
+expect 0 reduce $steel --modes 12 --json --site 20,7.5,10
+[ "$(field hash)" != "$first" ] || fail "the same hash with a site"
+
+say "two materials by name, held at one end, all modes below a frequency"
+cat >"$work/catalogue.yaml" <<YAML
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+  light: {young: 70e9, poisson: 0.33, density: 2700}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.01}
+YAML
+expect 0 reduce --catalogue "$work/catalogue.yaml" --material steel --part right=light --fixed low \
+    --max-frequency 40e3 --json
+[ "$(field rigid_motions)" -eq 0 ] || fail "rigid motions $(field rigid_motions)"
+[ "$(field modes)" = "$(field confirmed)" ] || fail "$(field modes) modes of $(field confirmed)"
+[ "$(field mass | cut -c1-6)" = 0.0315 ] || [ "$(field mass | cut -c1-6)" = 0.0314 ] || fail "mass $(field mass)"
+
+# CalculiX's elements of 20 nodes are ours: its matrices give our frequencies
+if command -v ccx >/dev/null; then
+    say "matrices that CalculiX has assembled"
+    { cat "$work/block.inp" && cat <<INP; } >"$work/ccx.inp"
+*MATERIAL, NAME=steel
+*ELASTIC
+210000, 0.3
+*DENSITY
+7.8e-9
+*SOLID SECTION, ELSET=left, MATERIAL=steel
+*SOLID SECTION, ELSET=right, MATERIAL=steel
+*BOUNDARY
+low, 1, 3
+*STEP
+*FREQUENCY, SOLVER=MATRIXSTORAGE
+5
+*END STEP
+INP
+    (cd "$work" && ccx ccx >/dev/null 2>&1)
+    reduce_ccx() {
+        "$bin/percuss-reduce" "$work/ccx.inp" --unit mm -o "$work/block.h5" --modes 5 --json "$@"
+    }
+    expect 0 reduce_ccx --fixed low
+    mv "$out" "$work/own.json"
+    expect 0 reduce_ccx --stiffness "$work/ccx.sti" --mass "$work/ccx.mas" --freedoms "$work/ccx.dof"
+    [ "$(field held)" = "(matrices)" ] || fail "held $(field held)"
+    # 14 digits of each entry are in the file
+    grep -h '"frequencies"' "$work/own.json" "$out" | tr -d '[],' | awk '
+        NR == 1 { split($0, one, " ") }
+        NR == 2 { for (i = 2; i <= NF; i++) if (($i / one[i] - 1) ^ 2 > 1e-18) bad = 1 }
+        END { exit bad || NR != 2 }' || fail "other frequencies"
+    expect 1 reduce_ccx --stiffness "$work/ccx.mas" --mass "$work/ccx.sti" --freedoms "$work/ccx.dof"
+    says 'are they exchanged, of another mesh, or in other units?'
+    head -n 200 "$work/ccx.sti" >"$work/short.sti"
+    expect 1 reduce_ccx --stiffness "$work/short.sti" --mass "$work/ccx.mas" --freedoms "$work/ccx.dof"
+    says 'on the diagonal: must be > 0; is the file whole?'
+fi
+
+say "a number of modes that would cut between the copies of a frequency takes both"
+block 6 2 2 | awk -F, '/^\*/ { nodes = /^\*NODE/ } nodes && NF == 4 { printf "%s,%.9g,%s,%s\n", $1, 4 * $2, $3, $4; next }
+    { print }' >"$work/square.inp"
+expect 0 "$bin/percuss-reduce" "$work/square.inp" --unit mm -o "$work/square.h5" $steel --modes 1
+shows 'modes           2; by inertia'
+shows '1 were asked for, the last of which has the frequency of the next: copies stay together'
+
+say "a slender bar held at one end and a single mode: statics converge far above its first frequency"
+awk -F, '/^\*/ { nodes = /^\*NODE/ } nodes && NF == 4 { printf "%s,%.9g,%s,%s\n", $1, 3 * $2, $3, $4; next }
+    { print }' "$work/block.inp" >"$work/long.inp"
+expect 0 "$bin/percuss-reduce" "$work/long.inp" --unit mm -o "$work/long.h5" $steel --modes 1 --fixed low
+shows 'without 1 modes'
+
+say "refusals"
+expect 1 reduce
+says 'has no material: give --material NAME'
+expect 1 reduce $steel --fixed high
+says '--fixed: high: the mesh has'
+expect 1 reduce --catalogue "$work/catalogue.yaml" --material steal
+says 'steal'
+expect 1 reduce --catalogue "$work/catalogue.yaml" --material steel --part middle=light
+says '--part: middle: the mesh has 2 parts'
+expect 1 reduce $steel --site 20,7.5,11 --site 20,7.5,14
+says '--site: 20,7.5,14: is 4 mm off the surface'
+expect 1 reduce $steel --max-frequency 10
+says 'there are 0 modes below'
+expect 1 reduce $steel --modes 12 -o /proc/block.h5
+says '/proc/block.h5'
+expect 1 "$bin/percuss-reduce" "$work/none.inp" $steel -o "$work/none.h5"
+says 'none.inp'
+sed 's/C3D20/C3D8/' "$work/block.inp" >"$work/linear.inp"
+expect 1 "$bin/percuss-reduce" "$work/linear.inp" $steel -o "$work/none.h5"
+says 'C3D8'
+[ ! -e "$work/none.h5" ] || fail "a file of nothing"
+expect 2 reduce --young 210e9
+says 'must be given together'
+expect 2 reduce --young 210mm --poisson 0.3 --density 7800
+says "--young: 210mm: must be a modulus, 1 to 1e+15 Pa, or with a unit, such as 70 GPa"
+expect 2 reduce $steel --modes 5 --max-frequency 100
+expect 1 "$bin/percuss-reduce" "$work/block.inp" --unit mm $steel -o "$work/nowhere/block.h5"
+says "nowhere/block.h5: cannot be written"
+expect 2 reduce $steel --unit furlong
+expect 2 reduce $steel --stiffness "$work/ccx.sti"
+expect 2 reduce $steel --site 1,2
+expect 2 "$bin/percuss-reduce" "$work/block.inp" $steel

@@ -1,0 +1,101 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# percuss-ros2 answers on topics and by a service, as the command line is answered; and goes on when the
+# daemon ends and begins.
+. "$(dirname "$0")/../support/lib.sh"
+
+# start_bridge: the daemon's domain is ROS 2's too
+start_bridge() {
+    : >"$work/bridge.log"
+    "$bin/percuss-ros2" --domain "$domain" --ros-domain "$domain" "$@" 2>"$work/bridge.log" 9>&- &
+    others=$!
+    bridge=$!
+    wait_for 20 grep -q 'ready: domain' "$work/bridge.log" || fail "$(cat "$work/bridge.log")"
+}
+
+# restitution SPEED: by the command line
+restitution() {
+    cat >"$work/request.json" <<JSON
+{"bodies": [{"id": "steel-sphere", "position": [0.515, 0, 0], "velocity": [-$1, 0, 0]}, {"id": "al-rod-1"}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0]}]}
+JSON
+    expect 0 percuss query --request "$work/request.json" --json
+    field restitution
+}
+
+# agree FILE SPEED...: the answers are those; both print all digits, and the daemon has no other ones
+agree() {
+    answers=$1
+    shift
+    number=0
+    for speed in "$@"; do
+        wanted=$(restitution "$speed")
+        awk -v n="$number:" -v e="$wanted" '$1 == n { found = 1; d = $2 - e; exit !(d * d <= 1e-24 && e > 0) }
+            END { if (!found) exit 1 }' "$answers" || fail "not $wanted at $speed: $(cat "$answers")"
+        number=$((number + 1))
+    done
+}
+
+say "topics and service: the answers are the command line's"
+start_daemon
+start_bridge
+for way in topic service; do
+    expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 3
+    cp "$out" "$work/$way"
+    agree "$work/$way" 0.1 0.2 0.3
+done
+
+say "who reads replies a moment after it has asked gets them"
+expect 0 "$peers/ros2_peer" "$domain" late 0.1 3
+cp "$out" "$work/late"
+agree "$work/late" 0.1 0.2 0.3
+
+say "two clients of the service at once: each gets his own answers"
+"$peers/ros2_peer" "$domain" service 0.1 20 >"$work/one" 9>&- &
+one=$!
+expect 0 "$peers/ros2_peer" "$domain" service 0.15 20
+cp "$out" "$work/two"
+wait "$one" || fail "$(cat "$work/one")"
+agree "$work/one" 0.1 0.2
+agree "$work/two" 0.15 0.3
+
+say "what is wrong is answered, with the reason"
+expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1 nobody
+shows "0: -1 4 "
+shows "nobody"
+expect 0 "$peers/ros2_peer" "$domain" service 0.1 1 "$(printf 'x%.0s' $(seq 70))"
+shows "0: -1 2 bodies[1].id has 70 bytes, at most 63 are allowed"
+expect 0 "$peers/ros2_peer" "$domain" topic -0.1 1
+shows "0: -1 3 "
+
+say "questions that are cut or changed: it goes on"
+expect 0 "$peers/ros2_damaged" "$domain" "${PERCUSS_DAMAGED:-3000}"
+cat "$out"
+kill -0 "$bridge" || fail "the bridge has ended: $(cat "$work/bridge.log")"
+for way in topic service; do
+    expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 3
+    cp "$out" "$work/$way"
+    agree "$work/$way" 0.1 0.2 0.3
+done
+
+say "without a daemon: said so; with another one: answered"
+stop_daemon
+expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1
+shows "0: -1 1000 no percussd answers in DDS domain $domain"
+start_daemon
+expect 0 "$peers/ros2_peer" "$domain" topic 0.1 2
+cp "$out" "$work/again"
+agree "$work/again" 0.1 0.2
+
+say "SIGTERM ends it"
+kill -TERM "$bridge"
+code=0
+wait "$bridge" || code=$?
+others=
+[ "$code" = 0 ] || fail "it ended with $code"
+expect 2 env ROS_DOMAIN_ID=none "$bin/percuss-ros2"
+says "ROS_DOMAIN_ID"
+expect 2 "$bin/percuss-ros2" --network --domain 7 --ros-domain 7
+expect 2 "$bin/percuss-ros2" --namespace a//b
+stop_daemon
