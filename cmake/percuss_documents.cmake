@@ -4,24 +4,29 @@
 # The documents for an installed tree: its paths instead of the source's, in links and in text.
 file(RELATIVE_PATH data_from_documents /${CMAKE_INSTALL_DOCDIR} /${CMAKE_INSTALL_DATADIR}/percuss)
 
-# percuss_document(<file>): of README.md or docs/, into the folder of all documents
+# percuss_document(<file>): of the source folder into that of all documents, of docs/FOLDER into its FOLDER
 function(percuss_document file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-  get_filename_component(name ${file} NAME)
+  file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${file})
+  string(REGEX REPLACE "^docs/" "" name ${name})
+  get_filename_component(folder "${name}" DIRECTORY)
+  set(up "")
+  if(folder)
+    set(up ../)
+  endif()
   file(READ ${file} text)
-  string(REGEX REPLACE "\\]\\((\\.\\./)?client/(examples|python|ros2)/" "](${data_from_documents}/\\2/" text "${text}")
-  string(REGEX REPLACE "\\]\\((\\.\\./)?(config|idl)/" "](${data_from_documents}/" text "${text}")
+  string(REGEX REPLACE "\\]\\((\\.\\./)*client/(examples|python|ros2)/" "](${up}${data_from_documents}/\\2/" text "${text}")
+  string(REGEX REPLACE "\\]\\((\\.\\./)*(config|idl|deploy)/" "](${up}${data_from_documents}/" text "${text}")
   string(REPLACE "](docs/" "](" text "${text}")
-  string(REPLACE "](../SECURITY.md" "](SECURITY.md" text "${text}")
-  string(REPLACE "](../deploy/" "](${data_from_documents}/" text "${text}")
+  string(REGEX REPLACE "\\]\\((\\.\\./)+(README|SECURITY|CHANGELOG|CONTRIBUTING)\\.md" "](${up}\\2.md" text "${text}")
   string(REGEX REPLACE "client/(examples|python|ros2)" "${CMAKE_INSTALL_DATADIR}/percuss/\\1" text "${text}")
   string(REGEX REPLACE "([ `])config/" "\\1${CMAKE_INSTALL_DATADIR}/percuss/" text "${text}")
   string(REPLACE "build/bin/" "" text "${text}")
   file(WRITE ${PROJECT_BINARY_DIR}/docs/${name} "${text}")
-  install(FILES ${PROJECT_BINARY_DIR}/docs/${name} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+  install(FILES ${PROJECT_BINARY_DIR}/docs/${name} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT documents)
 endfunction()
 
-file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
+file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*/*.md)
 foreach(document ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/SECURITY.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
   ${documents})
   percuss_document(${document})

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the daemon does for a question beside its solution, DDS left out: see docs/latency.md. */
+/* What the daemon does for a question beside its solution, DDS left out: see docs/lab/latency.md. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* How the cost of a contact step grows with the modes and with the contacts of a scene: see
- * docs/performance.md. Processor time, medians. */
+ * docs/lab/performance.md. Processor time, medians. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,11 +2,11 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Measures what the service costs its callers and writes the tables of docs/latency.md between its marks. The bare
+# Measures what the service costs its callers and writes the tables of docs/lab/latency.md between its marks. The bare
 # round trip and the service are measured several times, each time anew: the tables have the medians of the runs, and
 # of the ratio the least and the largest. Two minutes on a machine that has nothing else to do.
 # usage: latency.sh [--quick] [BUILD [FOLDER]]    BUILD: build; --quick: few turns, to see that it works; a copy of
-#                                                 docs to write to instead
+#                                                 docs/lab to write to instead
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 runs=5 turns=2000 answers=1000
@@ -15,7 +15,7 @@ if [ "${1:-}" = --quick ]; then
     shift
 fi
 bench=${1:-$root/build}/tests/bench
-page=${2:-$root/docs}/latency.md
+page=${2:-$root/docs/lab}/latency.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

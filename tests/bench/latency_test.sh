@@ -6,7 +6,7 @@
 # usage: latency_test.sh BUILD
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-page=$here/../../docs/latency.md
+page=$here/../../docs/lab/latency.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

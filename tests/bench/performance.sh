@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # What a warm solve and a first one cost by their parts, in instructions, beside what its arithmetic alone would cost, what the
-# daemon adds, and how a step's cost grows with modes and contacts: writes the tables of docs/performance.md
+# daemon adds, and how a step's cost grows with modes and contacts: writes the tables of docs/lab/performance.md
 # between its marks, and its figure.
 # usage: performance.sh BUILD [FOLDER]    a Release build with tests/bench/solve_once, fixed_part and growth;
 #                                         a copy of docs to write to instead
@@ -214,6 +214,6 @@ awk -v tables="$work/tables" '
     /<!-- tables end -->/ { inside = 0 }
     !inside { print }
     /<!-- tables begin -->/ { inside = 1; while ((getline line < tables) > 0) print line }
-' "$docs/performance.md" >"$work/page"
-cp "$work/page" "$docs/performance.md"
+' "$docs/lab/performance.md" >"$work/page"
+cp "$work/page" "$docs/lab/performance.md"
 cat "$work/tables"

@@ -3,12 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Measures speed against error and redoes the data and the figures in docs/figures/ and the tables in
-# docs/work-precision.md. Some five minutes on one core.
+# docs/lab/work-precision.md. Some five minutes on one core.
 # usage: report.sh [--csv FILE] [BUILD]   (BUILD: build; --csv: figures and tables of an earlier run)
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 figures=$root/docs/figures
-page=$root/docs/work-precision.md
+page=$root/docs/lab/work-precision.md
 data=$figures/work-precision.csv
 
 given=

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What a question costs its caller, against the bare round trip that carries it: see
- * docs/latency.md. */
+ * docs/lab/latency.md. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Speed against error: the library and general methods on the same problems, see
- * docs/work-precision.md. */
+ * docs/lab/work-precision.md. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

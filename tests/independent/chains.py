@@ -9,7 +9,7 @@ whose ends lie at the loads; Hertz's law by elliptic integrals. Between contacts
 the force is linear within each of the steps, for which the modes answer exactly, and each step's force is the root of
 the law. Steps are halved and modes doubled, all along the chain, until the restitution converges.
 
-Scene 0 is five blows on a pinned beam, whose values docs/accuracy.md has.
+Scene 0 is five blows on a pinned beam, whose values docs/lab/accuracy.md has.
 
 usage: chains.py --judge FILE        percuss against recorded references (numpy alone)
        chains.py --record FILE       computes the references (scipy)
@@ -157,7 +157,7 @@ class Beam:
         return parts
 
     def local(self):
-        """What the side gives way beyond its half-space and the theory, m/N (docs/accuracy.md: a fit to meshes)."""
+        """What the side gives way beyond its half-space and the theory, m/N (docs/lab/accuracy.md: a fit to meshes)."""
         if self.section.rigid:
             return 0.0
         nu = self.bar["poisson"]

@@ -43,7 +43,7 @@ def closed_forms():
 
 
 def values():
-    """Steel balls: those of meshes (docs/accuracy.md)."""
+    """Steel balls: those of meshes (docs/lab/accuracy.md)."""
     for name, shape, size, material, at, normal, radius, speed, right, within in (
         ("bar 8 x 8 x 80", "box", (0.08, 0.008, 0.008), ALUMINIUM, (0, 0, 0.004), (0, 0, 1), 0.008, 0.05, 0.7484, 1e-3),
         ("the same, 0.5 m/s", "box", (0.08, 0.008, 0.008), ALUMINIUM, (0, 0, 0.004), (0, 0, 1), 0.008, 0.5, 0.8147, 1e-3),

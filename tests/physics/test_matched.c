@@ -26,7 +26,7 @@ static void solve_with(struct lab *lab, struct solve_request request,
 }
 
 /* Against both bodies completely meshed, elastic: .7746 .7226 .6335 .5901 with discretisation
- * errors below 0.001 (docs/complete-fe.md); the 1-D rod has no lateral inertia, so 0.001 more. */
+ * errors below 0.001 (docs/lab/complete-fe.md); the 1-D rod has no lateral inertia, so 0.001 more. */
 static void a_rod_as_the_complete_bodies_say(void **state)
 {
     (void)state;

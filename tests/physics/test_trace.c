@@ -292,7 +292,7 @@ static void histories_have_their_bounds(void **state)
         print_message("    work %g, traced %g, %zu sub-impacts, until %g of %g s\n", work[0],
                       work[1], result.contacts[0].sub_impact_count,
                       result.trace->time[result.trace->count - 1], result.window);
-    /* 3e7 each (docs/accuracy.md), and what is counted after it is done */
+    /* 3e7 each (docs/lab/accuracy.md), and what is counted after it is done */
     assert_true(work[1] - work[0] < 6.6e7);
     /* they are cut short here, and that is said */
     bool said = false;

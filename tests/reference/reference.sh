@@ -42,12 +42,12 @@ page() {
     fi
 }
 
-page docs/catalogue.md "$print" catalogue markdown
+page docs/reference/catalogue.md "$print" catalogue markdown
 page client/man/percuss-catalogue.5 "$print" catalogue man
-page docs/settings.md "$print" settings markdown
+page docs/reference/settings.md "$print" settings markdown
 page client/man/percussd.yaml.5 "$print" settings man
-page docs/requests.md python3 "$source_dir/tests/reference/members.py" "$percuss"
-python3 "$source_dir/tests/reference/shipped.py" "$source_dir/docs/settings.md" "$source_dir/config/percussd.yaml" ||
+page docs/reference/requests.md python3 "$source_dir/tests/reference/members.py" "$percuss"
+python3 "$source_dir/tests/reference/shipped.py" "$source_dir/docs/reference/settings.md" "$source_dir/config/percussd.yaml" ||
     exit 1
 [ "$failed" -eq 0 ] || echo "the tables have changed: tests/reference/reference.sh ... --write" >&2
 exit "$failed"

@@ -29,7 +29,7 @@ build "$source_dir" || fail "the site"
 pages=$(find "$source_dir/docs" -name '*.md' | wc -l)
 [ "$(find "$work/site/docs" -name '*.html' | wc -l)" -eq "$pages" ] || fail "not every page is in the site"
 grep -q 'url=README.html' "$work/site/index.html" || fail "it does not begin with its first page"
-for figure in $(grep -oh 'figures/[A-Za-z0-9_.-]*\.\(png\|svg\)' "$source_dir"/docs/*.md | sort -u); do
+for figure in $(grep -oh 'figures/[A-Za-z0-9_.-]*\.\(png\|svg\)' "$source_dir"/docs/*.md "$source_dir"/docs/*/*.md | sort -u); do
     [ -s "$work/site/_images/${figure#figures/}" ] || fail "$figure is not in the site"
 done
 

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # The figures and tables of the paper, computed: starts percussd on loopback, asks for every impact of
-# them, draws them, and puts the numbers into docs/paper.md of a source tree.
+# them, draws them, and puts the numbers into docs/lab/paper.md of a source tree.
 # Table 2 and model A of Fig. 3 are those kept in docs/figures and beside this script; with PERCUSS_PAPER=all
 # they are computed anew, which takes some twenty minutes more and needs the benchmarks (tests/bench/beam_3d.sh).
 # usage: run.sh [BUILD [OUTPUT [PART]...]]    (default: build/ of this source tree, BUILD/paper, and all of table_1,
@@ -177,12 +177,12 @@ figure_6() {
 
 # the parts of the page between its marks are what was computed
 put() {
-    [ -w "$source/docs/paper.md" ] || return 0
+    [ -w "$source/docs/lab/paper.md" ] || return 0
     awk -v name="$1" -v file="$output/$1.md" '
         $0 == "<!-- " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }
-        !skip' "$source/docs/paper.md" >"$output/paper.md"
-    cp "$output/paper.md" "$source/docs/paper.md"
+        !skip' "$source/docs/lab/paper.md" >"$output/paper.md"
+    cp "$output/paper.md" "$source/docs/lab/paper.md"
 }
 
 for part in $parts; do

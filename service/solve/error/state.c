@@ -254,7 +254,7 @@ void start_error_after(const struct problem *problem, const struct solution *sol
     for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         state->known[f] = known_after(problem, solution, body, f);
     /* both planes of a state that was turned back lack the modes of either */
-    const struct bending_axes *axes = &problem->rolls[body];
+    const struct bending_axes *axes = &problem->axes[body];
     size_t *planes = &state->known[axes->first];
     if (axes->sine != 0.0)
         planes[0] = planes[1] = planes[0] < planes[1] ? planes[0] : planes[1];

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Random scenes by class, for the campaigns of docs/accuracy.md. Scene `number` of a class is the
+/* Random scenes by class, for the campaigns of docs/lab/accuracy.md. Scene `number` of a class is the
  * same on every machine. */
 #ifndef PERCUSS_TEST_ESTIMATES_DRAWN_H
 #define PERCUSS_TEST_ESTIMATES_DRAWN_H

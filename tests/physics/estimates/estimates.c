@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* How honest the error estimates are: random scenes of each class, answered at three tolerances
- * and compared with what they converge to (docs/accuracy.md).
+ * and compared with what they converge to (docs/lab/accuracy.md).
  *   estimates [--class WORD] [--first N] [--count N] [--effort W] [--cvode K] [--csv | --list]
  *   estimates --class WORD --scene N         one scene, with everything
  *   estimates --draw [--seed N]              a bounded draw of every class, judged; the seed is

@@ -64,7 +64,7 @@ const char *invariant_broken(const struct solve_result *result, double tolerance
         if (broken)
             return broken;
     }
-    /* ten times the tolerance (docs/accuracy.md) */
+    /* ten times the tolerance (docs/lab/accuracy.md) */
     double scale = fmax(result->energy.available, approach_energy(result));
     if (!isfinite(result->energy.closure) ||
         (result->tolerance_met && fabs(result->energy.closure) > 10.0 * tolerance * scale))

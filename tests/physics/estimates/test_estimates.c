@@ -91,7 +91,7 @@ static void scenes_are_drawn_again(void **state)
     lab_free(lab);
 }
 
-/* The references against numbers that are known (docs/accuracy.md): a ball on the rod and on the
+/* The references against numbers that are known (docs/lab/accuracy.md): a ball on the rod and on the
  * beam of the paper; and by CVODE. */
 static void references_settle_to_known_numbers(void **state)
 {

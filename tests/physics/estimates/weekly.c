@@ -12,7 +12,7 @@
 enum { SCENES = 50 };
 static const double EFFORT = 3e7;
 
-/* What docs/accuracy.md promises: at least 95 of 100 errors are below the estimate, and of 1000
+/* What docs/lab/accuracy.md promises: at least 95 of 100 errors are below the estimate, and of 1000
  * answers that are met none is wrong; a scene has three answers. */
 static const double UNCOVERED_RATE = 0.05;
 static const double WRONG_RATE = 3e-3;

@@ -7,7 +7,7 @@
 
 static const double ball_radius = 0.05;
 
-/* One estimate in twenty may be too small, these by less than so much (docs/accuracy.md). */
+/* One estimate in twenty may be too small, these by less than so much (docs/lab/accuracy.md). */
 static const double UNDER = 3.0;
 
 /* The ball comes down with 0.3 m/s on 0.85 kg of aluminium; the references have Cowper's shear

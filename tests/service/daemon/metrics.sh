@@ -57,7 +57,7 @@ say "the dashboard and the alerts name what is there, and all of it"
 
 say "each alert is in the runbook, and nothing else"
 sed -n 's/.*- alert: //p' "$source_dir/deploy/monitoring/percuss.rules.yml" | sort >"$work/alerts"
-sed -n 's/^## \(Percuss[A-Za-z]*\)$/\1/p' "$source_dir/docs/runbook.md" | sort >"$work/pages"
+sed -n 's/^## \(Percuss[A-Za-z]*\)$/\1/p' "$source_dir/docs/reference/runbook.md" | sort >"$work/pages"
 cmp "$work/alerts" "$work/pages" || fail "alerts and pages differ"
 
 say "status --watch looks again and again"

@@ -37,7 +37,7 @@ start_daemon
 say "the requests of the man page and of the page are answered"
 example "$source_dir/client/man/percuss.1" '.Bd -literal' .Ed | sed -n '/^{"bodies"/,$p' >"$work/man.json"
 # shellcheck disable=SC2016
-example "$source_dir/docs/requests.md" '```json' '```' >"$work/page.json"
+example "$source_dir/docs/reference/requests.md" '```json' '```' >"$work/page.json"
 for file in man page; do
     valid request "$work/$file.json" || fail "the request of the $file is none"
     printed reply 0 query --request "$work/$file.json"

@@ -114,7 +114,7 @@ static void progress_rises_and_may_end_it(void **unused)
     assert_int_equal(complete_converge(&problem, 0.01, &found, &fault), PERCUSS_BAD_REQUEST);
 }
 
-/* Means of three phases on meshes of 32 and 24 elements (docs/complete-fe.md); what is open of them
+/* Means of three phases on meshes of 32 and 24 elements (docs/lab/complete-fe.md); what is open of them
  * is a tenth of their swing's width, 0.0003. */
 static void finer_meshes_lie_within_the_error(void **unused)
 {

@@ -123,7 +123,7 @@ static double matched(const struct complete_body *body, double patch)
 
 /* The contact is over before the wave returns from the far end, so both ways see the same rod. The
  * ODE leaves out lateral inertia and takes the matched compliance at one force: 0.0004 of e against
- * meshes of 24 cells; the mesh of 8 adds 0.0007 (docs/complete-fe.md). */
+ * meshes of 24 cells; the mesh of 8 adds 0.0007 (docs/lab/complete-fe.md). */
 static void rod_agrees_with_waves_and_matched_compliance(void **unused)
 {
     (void)unused;

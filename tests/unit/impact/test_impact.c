@@ -66,7 +66,7 @@ static void rounding_of_a_wide_gap_is_no_loss(void **state)
 }
 
 /* A Hertz contact of a rigid pair, wherever its length lies between two levels of the ladder: its
- * impulse 2 v/w as the accuracy says (see docs/accuracy.md), in few steps: its beginning and its
+ * impulse 2 v/w as the accuracy says (see docs/lab/accuracy.md), in few steps: its beginning and its
  * end take no more of them than its middle (counted are 12, 14, 18, 23). */
 static void a_contact_takes_few_steps(void **state)
 {

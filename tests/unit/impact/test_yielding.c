@@ -68,7 +68,7 @@ static void a_rigid_pair_rebounds_by_its_energy(void **state)
             struct impact_outcome outcome = run(&toy, false, accuracy);
             double e = outcome.motion.gap_rate[0] / speeds[i];
             double expected = rebound(&toy.laws[0], speeds[i], toy.w[0]) / speeds[i];
-            /* the step control's own statement, see docs/accuracy.md, and rounding */
+            /* the step control's own statement, see docs/lab/accuracy.md, and rounding */
             double allowed = 0.1 * pow(accuracy, 0.8) + 1e-12;
             measured("restitution", e, expected, allowed);
             /* what solve/step_search.c counts on: tolerance ten times, or 1e-3, the accuracy */

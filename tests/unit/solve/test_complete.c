@@ -89,7 +89,7 @@ static void two_spheres_dissipate_by_flow_only(void **state)
     request.options.contact_model = PERCUSS_CONTACT_COMPLETE_FE;
     request.options.tolerance = 0.02;
     lab_solve(lab, &request, &result);
-    /* docs/complete-fe.md: 0.6958 as the limit; four and eight elements: 0.7098, 0.6996 */
+    /* docs/lab/complete-fe.md: 0.6958 as the limit; four and eight elements: 0.7098, 0.6996 */
     measured("e", result.contacts[0].restitution, 0.6958, 0.01);
     assert_true(result.energy.plastic > 0.3 * result.energy.available);
     /* what the steps gain or lose counts as the rebound's */

@@ -74,7 +74,7 @@ static void an_elastic_pair_loses_what_leaves_through_the_wall(void **state)
     lab_free(lab);
 }
 
-/* Rod 1 at 0.3 m/s: complete finite elements give 0.4887 (docs/complete-fe.md). */
+/* Rod 1 at 0.3 m/s: complete finite elements give 0.4887 (docs/lab/complete-fe.md). */
 static void flow_costs_what_complete_elements_say(void **state)
 {
     (void)state;
