@@ -2,7 +2,7 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Bodies meshed by Gmsh, reduced and struck, beside numbers of other programs: what docs/mesh.md states. Takes
+# Bodies meshed by Gmsh, reduced and struck, beside numbers of other programs: what docs/lab/mesh.md states. Takes
 # some fifteen minutes of one core and 3 GB.
 # usage: mesh_values.sh BUILD OUTPUT [rod-end|patch|frequencies|rod|beam|plate|cylinder]...
 # (default: all)

@@ -43,7 +43,7 @@ static struct lab *paper_beam(void)
     return lab;
 }
 
-/* Against the beam as a mesh (docs/mesh.md, `mesh_values.sh ... beam`, 4 mm, 220 modes): what the
+/* Against the beam as a mesh (docs/lab/mesh.md, `mesh_values.sh ... beam`, 4 mm, 220 modes): what the
  * answer states covers the difference, which the later blows amplify; the first impulse by itself
  * is within the 2e-6 N s that meshes leave. The digits are our own, for a change to be seen. */
 static void the_paper_s_beam_at_four_speeds(void **state)

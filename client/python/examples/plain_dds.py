@@ -4,7 +4,7 @@
 
 Needs `pip install cyclonedds==11.0.1` and a percussd with the shipped catalogue, in the DDS domain that is the argument
 or stands in PERCUSS_DOMAIN, else 0, and in the partition PERCUSS_PARTITION, else in none. The types below are those of
-percuss_wire.idl, which also states the conventions; docs/plain-dds.md explains the rest.
+percuss_wire.idl, which also states the conventions; docs/dds.md explains the rest.
 """
 
 import os

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # The client made of the IDL alone gets the answer that percuss gets, in the domain and partition that the environment
-# names; and types that are made from the IDL, as docs/plain-dds.md says, do as well. Started by run.sh.
+# names; and types that are made from the IDL, as docs/dds.md says, do as well. Started by run.sh.
 set -eu
 . "$PERCUSS_SOURCE/tests/documents.sh"
 example=$PERCUSS_SOURCE/client/python/examples/plain_dds.py
@@ -31,7 +31,7 @@ same_answer plain
 cut_digits() {
     sed -e 1d -e 's/\(\.[0-9]\{9\}\)[0-9]*/\1/'
 }
-awk '/^domain 0$/ { inside = 1 } /^```$/ { inside = 0 } inside' "$PERCUSS_SOURCE/docs/plain-dds.md" | cut_digits >shown
+awk '/^domain 0$/ { inside = 1 } /^```$/ { inside = 0 } inside' "$PERCUSS_SOURCE/docs/dds.md" | cut_digits >shown
 cut_digits <plain | diff - shown || fail "the page shows another answer"
 # the argument counts before the environment
 PERCUSS_DOMAIN=231 python "$example" "$PERCUSS_DOMAIN" >plain
@@ -56,7 +56,7 @@ same_answer plain
 for folder in $(echo "$PATH" | tr : ' ') "${PYENV_ROOT:-$HOME/.pyenv}"/versions/3.10.*/bin; do
     "$folder/python3.10" -c 'import venv, ensurepip' 2>/dev/null || continue
     ln -s "$PERCUSS_SOURCE/idl" idl
-    commands "$PERCUSS_SOURCE/docs/plain-dds.md" cyclonedds==0.10.5 >make-types
+    commands "$PERCUSS_SOURCE/docs/dds.md" cyclonedds==0.10.5 >make-types
     [ -s make-types ] || fail "the page has no such commands"
     PATH=$folder:$PATH sh -eu make-types >log 2>&1 || {
         grep -qi "no matching distribution\|connection\|resolve" log && break

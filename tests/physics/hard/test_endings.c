@@ -146,7 +146,7 @@ static void the_horizon_inside_a_flight(void **state)
     assert_cut(&result, PERCUSS_END_HORIZON);
     measured_relative("window", result.window, 0.003, 1e-12);
     assert_int_equal(result.contacts[0].sub_impact_count, 1);
-    /* of the beam as a mesh (docs/mesh.md) */
+    /* of the beam as a mesh (docs/lab/mesh.md) */
     measured("first impulse", result.contacts[0].impulse, 0.019513, 2e-6);
     lab_free(lab);
 }

@@ -35,7 +35,7 @@ read_page() {
 count=0
 for page in README.md $(cd "$source_dir" && echo docs/*.md docs/*/*.md); do
     [ "$page" != docs/tutorial.md ] && runnable "$source_dir/$page" >/dev/null || continue
-    [ "$page" != docs/plain-dds.md ] || [ -e "$python/wanted" ] || {
+    [ "$page" != docs/dds.md ] || [ -e "$python/wanted" ] || {
         say "$page: no virtual environment (see the test python/environment): left out"
         continue
     }

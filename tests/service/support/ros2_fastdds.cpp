@@ -103,7 +103,7 @@ int main(int argc, char **argv)
         replies->get_subscription_matched_status(read);
         return written.current_count == 1 && read.current_count == 1;
     }, 20);
-    // once more where the bridge has heard of this writer only after the question: docs/ros2.md
+    // once more where the bridge has heard of this writer only after the question: docs/dds.md
     Request_ request = describe(std::atof(argv[2]));
     bool answered = false;
     for (int i = 0; i < 10 && !answered; i++) {
