@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Share of the swing's width that remains in the mean of 3 or 6 phases: of 13 scenes with 12 phases
- * each (docs/complete-fe.md) at most 0.09 and 0.025. */
+ * each (docs/lab/complete-fe.md) at most 0.09 and 0.025. */
 static const double LEFT_BY_3 = 0.10;
 static const double LEFT_BY_6 = 0.03;
 

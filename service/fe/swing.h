@@ -25,7 +25,7 @@ struct swing {
 
 /* The swing is a first-order effect of the element size where material flows; its mean is off by a
  * part of it, which two means may hide by coming close on their way: of 13 scenes
- * (docs/complete-fe.md) by 1/12 at most, against meshes three and four times as fine. */
+ * (docs/lab/complete-fe.md) by 1/12 at most, against meshes three and four times as fine. */
 static const double SWING_IN_MEAN = 1.0 / 12.0;
 
 /* Fills mean, width and jitter from the phases. */

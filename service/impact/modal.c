@@ -51,10 +51,10 @@ struct care_limits {
 };
 
 /* With these the steps of a contact leave some 0.1 accuracy^0.8 in the restitution
- * (docs/accuracy.md, error.restitution_time). Of a sequence's contact the steps between tell: those
- * that begin and end it may be twice as long before e changes as much. With the steps of a single
- * blow sequences would be met and wrong three times as often. Rough solutions of sequences of three
- * were within 3e-3 of careful ones. */
+ * (docs/lab/accuracy.md, error.restitution_time). Of a sequence's contact the steps between tell:
+ * those that begin and end it may be twice as long before e changes as much. With the steps of a
+ * single blow sequences would be met and wrong three times as often. Rough solutions of sequences
+ * of three were within 3e-3 of careful ones. */
 static const struct care_limits cares[IMPACT_CARES] = {
     [IMPACT_CARE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
     [IMPACT_CARE_BESIDE] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A reduced body as one HDF5 file, see "The body file" in docs/mesh.md. One thread at a time. */
+/* A reduced body as one HDF5 file, see docs/reference/body-file.md. One thread at a time. */
 #ifndef PERCUSS_MESH_BODY_FILE_H
 #define PERCUSS_MESH_BODY_FILE_H
 

@@ -166,7 +166,7 @@ double beam_compliance(const struct beam_plane *plane, const struct beam_load *i
  * loaded place. */
 
 /* Window of the mean of psi', in longer sides of the section: with it beam_side_load moves a side
- * as the modes of meshes do, to 1 % up to waves of 1.8 heights (docs/accuracy.md). */
+ * as the modes of meshes do, to 1 % up to waves of 1.8 heights (docs/lab/accuracy.md). */
 static const double WINDOW = 0.7;
 
 /* The remainder of the static compliance under a point force on a mesh of the bar (its half-space

@@ -44,7 +44,7 @@ struct key {
     const char *allowed; /* of a value that the caller reads, in words that follow "must be"; NULL:
                             by type */
     const char *otherwise; /* the value where the key is absent; NULL: it is required */
-    const char *meaning;   /* for the reference, docs/catalogue.md */
+    const char *meaning;   /* for the reference, docs/reference/catalogue.md */
 };
 
 struct key_table {

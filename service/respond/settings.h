@@ -64,7 +64,7 @@ struct settings settings_default(void);
  * KEY: VALUE: must be ...". A relative path in it starts from the file's folder. */
 enum percuss_status settings_load(const char *path, struct settings *settings, struct fault *fault);
 
-/* A key for the reference, docs/settings.md. */
+/* A key for the reference, docs/reference/settings.md. */
 struct settings_row {
     const char *path, *meaning;
     char allowed[96], otherwise[64];

@@ -25,7 +25,7 @@ static const double INDEFINITE = 1e-9;
 /* Eigenvalues that count as zero, of the largest. */
 static const double NULL_EIGENVALUE = 1e-12;
 /* A contact that a mesh takes part in counts as a line below this ratio of its curvatures: across a
- * cylinder a fit leaves up to 2 % of its curvature along it (docs/mesh.md). */
+ * cylinder a fit leaves up to 2 % of its curvature along it (docs/lab/mesh.md). */
 static const double FITTED_LINE_RATIO = 0.03;
 
 /* Puts the body with the request's own parameters in its place. */

@@ -37,7 +37,7 @@ static const double ATTEMPT_FINEST = 1e-17;
  * error. */
 double attempt_first_accuracy(double tolerance, bool sequence, bool group);
 
-/* Error that steps of an accuracy leave of one impact's e (docs/accuracy.md). */
+/* Error that steps of an accuracy leave of one impact's e (docs/lab/accuracy.md). */
 double attempt_steps_leave(double accuracy);
 
 /* Until when a scene is watched: the request's horizon, or the default, s. */

@@ -3,7 +3,7 @@
 
 /* The numbers of the error estimates. Each was set by a campaign of random scenes against converged
  * solutions, finite elements or an independent solver; the comment above a group names the command
- * that prints the campaign anew, and docs/accuracy.md has its tables. */
+ * that prints the campaign anew, and docs/lab/accuracy.md has its tables. */
 #ifndef PERCUSS_SOLVE_ERROR_CALIBRATION_H
 #define PERCUSS_SOLVE_ERROR_CALIBRATION_H
 

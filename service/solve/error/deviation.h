@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Deviations of the models of a contact from its bodies. The figures are of complete finite
- * elements and of three-dimensional meshes (docs/accuracy.md). */
+ * elements and of three-dimensional meshes (docs/lab/accuracy.md). */
 #ifndef PERCUSS_SOLVE_ERROR_DEVIATION_H
 #define PERCUSS_SOLVE_ERROR_DEVIATION_H
 
