@@ -32,6 +32,9 @@ foreach(document ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/SECURITY.
   percuss_document(${document})
 endforeach()
 install(DIRECTORY docs/figures DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+if(BUILD_TESTING)
+  add_test(NAME manual COMMAND sh ${PROJECT_SOURCE_DIR}/tests/site/manual.sh ${PROJECT_SOURCE_DIR})
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 
 # the site of all pages, in build/site: ninja site
