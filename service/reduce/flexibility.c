@@ -4,14 +4,564 @@
 #include "reduce/flexibility.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/element.h"
 #include "model/facet.h"
 #include "model/vector.h"
 #include "numeric/dense.h"
-#include "reduce/flexibility_surface.h"
-#include "reduce/flexibility_volume.h"
+
+/* ---- integrals over the surface ---- */
+
+/* The rule of degree 6 is good to 1e-8 of a field that changes with the distance from the place,
+ * where that is as many radii of a triangle; nearer ones are split. */
+static const double SURFACE_FAR = 6.0;
+/* Triangles of this part of a face or smaller are not split any more: where the place lies within
+ * one the face is plane, t bounded and u like 1/r, and what is wrong is the part of a part. */
+enum { SURFACE_SPLITS = 7 };
+
+/* what is summed for one place and face */
+struct surface_sum {
+    const struct flexibility_place *place;
+    int count; /* nodes of the face */
+    const double (*nodes)[3];
+    bool in_plane;                     /* the half-space's own tractions are zero */
+    double forces[FACE_MOST_NODES][3]; /* integral of N^T t */
+    double energy;                     /* of t.u */
+};
+
+/* the field's traction on an area and its displacement */
+static void surface_look(const struct flexibility_place *place, bool in_plane, const double x[3],
+                         const double area[3], double traction[3], double displacement[3])
+{
+    double stress[6];
+    boussinesq3_field(&place->load, x, displacement, in_plane ? NULL : stress);
+    if (in_plane)
+        boussinesq3_added_stress(&place->load, x, stress);
+    boussinesq3_traction(stress, area, traction);
+}
+
+static void surface_add_point(struct surface_sum *sum, const double at[2], double weight,
+                              bool with_force, bool with_energy)
+{
+    double x[3], area[3], traction[3], displacement[3], shape[FACE_MOST_NODES];
+    facet_place(sum->count, sum->nodes, at[0], at[1], x, area);
+    surface_look(sum->place, sum->in_plane, x, area, traction, displacement);
+    if (with_energy)
+        sum->energy += weight * dot3(traction, displacement);
+    if (!with_force)
+        return;
+    facet_shape(sum->count, at[0], at[1], shape, NULL, NULL);
+    for (int n = 0; n < sum->count; n++)
+        add_scaled3(weight * shape[n], traction, sum->forces[n]);
+}
+
+/* a triangle that is split until it is small beside its distance */
+static void surface_add_triangle(struct surface_sum *sum, const struct surface_triangle *triangle,
+                                 int splits)
+{
+    /* its centre, and a radius that holds it */
+    double middle[2] = {0.0, 0.0}, centre[3], radius = 0.0, offset[3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++)
+            middle[k] += triangle->corners[i][k] / 3.0;
+    facet_place(sum->count, sum->nodes, middle[0], middle[1], centre, NULL);
+    for (int i = 0; i < 3; i++) {
+        double corner[3];
+        facet_place(sum->count, sum->nodes, triangle->corners[i][0], triangle->corners[i][1],
+                    corner, NULL);
+        sub3(corner, centre, corner);
+        radius = fmax(radius, norm3(corner));
+    }
+    sub3(centre, sum->place->load.point, offset);
+
+    /* near: by quarters */
+    if (norm3(offset) < SURFACE_FAR * radius && splits < SURFACE_SPLITS) {
+        struct surface_triangle parts[4];
+        surface_rule_split(triangle, parts);
+        for (int i = 0; i < 4; i++)
+            surface_add_triangle(sum, &parts[i], splits + 1);
+        return;
+    }
+    /* far: by the rule */
+    double at[SURFACE_RULE_POINTS][2], weights[SURFACE_RULE_POINTS];
+    surface_rule_place(triangle, at, weights);
+    for (int p = 0; p < SURFACE_RULE_POINTS; p++)
+        surface_add_point(sum, at[p], weights[p], true, true);
+}
+
+/* Gauss' points and weights on 0 .. 1, by Newton's method on Legendre's polynomial */
+static void gauss_points(int count, double *at, double *weights)
+{
+    for (int i = 0; i < count; i++) {
+        double x = cos(M_PI * (i + 0.75) / (count + 0.5)), slope = 1.0;
+        for (int step = 0; step < 20; step++) {
+            double before = 1.0, value = x;
+            for (int n = 2; n <= count; n++) {
+                double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
+                before = value;
+                value = next;
+            }
+            slope = count * (x * value - before) / (x * x - 1.0);
+            x -= value / slope;
+        }
+        at[i] = 0.5 * (1.0 - x);
+        weights[i] = 1.0 / ((1.0 - x * x) * slope * slope);
+    }
+}
+
+/* The curved face under the place itself, in triangles from the place to its edges, local
+ * coordinates place + s (edge - place). Tractions are like 1/s: the force is integrated in s, the
+ * energy, like 1/s^2, in ln s from the cut on. */
+static void surface_add_fan(struct surface_sum *sum)
+{
+    /* points of Gauss around the place and along the radius */
+    enum { AROUND = 40, ALONG = 12 };
+    double around[AROUND], around_weights[AROUND], along[ALONG], along_weights[ALONG];
+    gauss_points(AROUND, around, around_weights);
+    gauss_points(ALONG, along, along_weights);
+    /* tangents at the place */
+    const double place[2] = {sum->place->u, sum->place->v};
+    double du[3] = {0.0}, dv[3] = {0.0};
+    double shape[FACE_MOST_NODES], shape_u[FACE_MOST_NODES], shape_v[FACE_MOST_NODES];
+    facet_shape(sum->count, place[0], place[1], shape, shape_u, shape_v);
+    for (int n = 0; n < sum->count; n++) {
+        add_scaled3(shape_u[n], sum->nodes[n], du);
+        add_scaled3(shape_v[n], sum->nodes[n], dv);
+    }
+
+    /* the triangle to each edge; twice its area in local coordinates */
+    int corners = sum->count == FACE_TRIANGLE6 ? 3 : 4;
+    for (int i = 0; i < corners; i++) {
+        double from[2], to[2];
+        facet_node(sum->count, i, &from[0], &from[1]);
+        facet_node(sum->count, (i + 1) % corners, &to[0], &to[1]);
+        double area =
+            (from[0] - place[0]) * (to[1] - place[1]) - (to[0] - place[0]) * (from[1] - place[1]);
+        /* a radius, and ln s where it leaves the cut */
+        for (int a = 0; a < AROUND; a++) {
+            double way[2], radius[3] = {0.0};
+            for (int k = 0; k < 2; k++)
+                way[k] = from[k] + around[a] * (to[k] - from[k]) - place[k];
+            add_scaled3(way[0], du, radius);
+            add_scaled3(way[1], dv, radius);
+            double least = log(sum->place->cut / norm3(radius));
+            /* the force evenly in s, then the energy evenly in ln s */
+            for (int p = 0; p < ALONG; p++) {
+                double s = along[p];
+                const double even[2] = {place[0] + s * way[0], place[1] + s * way[1]};
+                double weight = area * around_weights[a] * along_weights[p];
+                surface_add_point(sum, even, weight * s, true, false);
+                s = exp(least * along[p]);
+                const double growing[2] = {place[0] + s * way[0], place[1] + s * way[1]};
+                surface_add_point(sum, growing, -least * weight * s * s, false, true);
+            }
+        }
+    }
+}
+
+/* a face in or near the place: nodes in the tangent plane have no tractions of the half-space */
+static void surface_add_near(const struct surface_rule *rule, size_t face, struct surface_sum *sum)
+{
+    const struct flexibility_place *place = sum->place;
+    double nodes[FACE_MOST_NODES][3];
+    surface_rule_nodes(rule, face, nodes);
+    sum->nodes = nodes;
+    sum->in_plane = true;
+    for (int n = 0; n < sum->count; n++) {
+        double offset[3];
+        sub3(nodes[n], place->load.point, offset);
+        /* as plane as flexibility_place_make wants a face to be */
+        if (fabs(dot3(offset, place->load.inward)) > 1e-5 * rule->radii[face])
+            sum->in_plane = false;
+    }
+    if (sum->in_plane && isinf(place->load.reach)) {
+        sum->nodes = NULL; /* free of tractions */
+        return;
+    }
+    if (face == place->face && !place->flat) {
+        surface_add_fan(sum);
+    } else {
+        struct surface_triangle triangles[2];
+        size_t count = surface_rule_triangles((size_t)sum->count, triangles);
+        for (size_t t = 0; t < count; t++)
+            surface_add_triangle(sum, &triangles[t], 0);
+    }
+    sum->nodes = NULL;
+}
+
+static void surface_add_far(const struct surface_rule *rule, size_t face, struct surface_sum *sum)
+{
+    for (size_t i = rule->first[face]; i < rule->first[face + 1]; i++) {
+        const double *shape = rule->shapes[sum->count][i - rule->first[face]];
+        double traction[3], displacement[3];
+        surface_look(sum->place, false, rule->points[i], rule->areas[i], traction, displacement);
+        sum->energy += dot3(traction, displacement);
+        for (int n = 0; n < sum->count; n++)
+            add_scaled3(shape[n], traction, sum->forces[n]);
+    }
+}
+
+/* With the field's tractions t and displacements u: subtracts the nodal forces that do t's work,
+ * the integral of N^T t, from force ([3 node_count], N), and returns the integral of t.u (m/N),
+ * outside the place's cut. */
+static double flexibility_surface_add(const struct surface_rule *rule,
+                                      const struct flexibility_place *place, double *force)
+{
+    double energy = 0.0;
+    for (size_t f = 0; f < rule->surface->face_count; f++) {
+        const struct surface_face *face = &rule->surface->faces[f];
+        struct surface_sum sum = {.place = place, .count = face->count};
+        double offset[3];
+        sub3(rule->centres[f], place->load.point, offset);
+        if (f == place->face || norm3(offset) < SURFACE_FAR * rule->radii[f])
+            surface_add_near(rule, f, &sum);
+        else
+            surface_add_far(rule, f, &sum);
+        for (int n = 0; n < sum.count; n++)
+            add_scaled3(-1.0, sum.forces[n], force + 3 * face->nodes[n]);
+        energy += sum.energy;
+    }
+    return energy;
+}
+
+/* ---- integrals over the volume: rule ---- */
+
+/* An element whose distance from the place is less than so many radii is split: its displacements,
+ * like 1/r, matter by (h / body)^2 to the whole, and 1e-3 of that is left. */
+static const double VOLUME_FAR = 2.0;
+enum { VOLUME_SPLITS = 2 };
+static const int STRAIN_ROW[6] = {0, 1, 2, 0, 1, 2};
+static const int STRAIN_COLUMN[6] = {0, 1, 2, 1, 2, 0};
+
+enum { VOLUME_RULE_TYPES = ELEMENT_HEX27 + 1 };
+
+/* Owns its arrays; the mesh is borrowed. */
+struct volume_rule {
+    const struct solid_mesh *mesh;
+    struct element_rule *rules; /* [VOLUME_RULE_TYPES] */
+    size_t *first;       /* [element_count + 1]: an element's points are points[first[e]] .. */
+    double (*points)[4]; /* place, volume: m, m^3 */
+    double (*centres)[3], *radii; /* [element_count], m */
+};
+
+static void volume_rule_free(struct volume_rule *rule)
+{
+    free(rule->rules);
+    free(rule->first);
+    free(rule->points);
+    free(rule->centres);
+    free(rule->radii);
+    *rule = (struct volume_rule){0};
+}
+
+static void volume_fill_element(struct volume_rule *rule, size_t element)
+{
+    const struct solid_mesh *mesh = rule->mesh;
+    const struct element_rule *points = &rule->rules[mesh->types[element]];
+    double nodes[ELEMENT_MOST_NODES][3];
+    element_points(mesh, element, nodes);
+    /* points of integration, each with its volume */
+    for (size_t p = 0; p < points->point_count; p++) {
+        struct element_point here;
+        element_at(points, p, nodes, &here);
+        double *point = rule->points[rule->first[element] + p];
+        memcpy(point, here.position, sizeof here.position);
+        point[3] = here.volume;
+    }
+    rule->radii[element] = surface_rule_sphere(points->node_count, nodes, rule->centres[element]);
+}
+
+static bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
+{
+    /* room for what there is one of an element */
+    size_t count = mesh->element_count, total = 0;
+    *rule = (struct volume_rule){.mesh = mesh};
+    rule->rules = malloc(VOLUME_RULE_TYPES * sizeof *rule->rules);
+    rule->first = malloc((count + 1) * sizeof *rule->first);
+    rule->centres = malloc(count * sizeof *rule->centres);
+    rule->radii = malloc(count * sizeof *rule->radii);
+    if (!rule->rules || !rule->first || !rule->centres || !rule->radii)
+        goto no_memory;
+    /* where the points of each element begin */
+    for (int type = 0; type < VOLUME_RULE_TYPES; type++)
+        element_rule_make((enum element_type)type, &rule->rules[type]);
+    for (size_t e = 0; e < count; e++) {
+        rule->first[e] = total;
+        total += rule->rules[mesh->types[e]].point_count;
+    }
+    rule->first[count] = total;
+    /* the points */
+    rule->points = malloc(total * sizeof *rule->points);
+    if (!rule->points)
+        goto no_memory;
+    for (size_t e = 0; e < count; e++)
+        volume_fill_element(rule, e);
+    return true;
+
+no_memory:
+    volume_rule_free(rule);
+    return false;
+}
+
+/* ---- integrals over the volume: mass ---- */
+
+/* A part of an element in natural coordinates: a tetrahedron by its corners, or a box by two. */
+struct piece {
+    double corners[4][3];
+};
+
+/* what is summed for one place and element */
+struct mass_sum {
+    const struct flexibility_place *place;
+    const struct element_rule *rule;
+    enum element_type type;
+    double (*nodes)[3];
+    double sums[ELEMENT_MOST_NODES][3];
+};
+
+/* a point of the piece: of a tetrahedron with volume coordinates 1 - a - b - c, a, b, c; of a box
+ * from the first corner to the second as the natural coordinates go from -1 to 1 */
+static void point_in_piece(enum element_type type, const struct piece *piece, const double at[3],
+                           double natural[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double from = piece->corners[0][k], to = piece->corners[1][k];
+        natural[k] = from;
+        if (type == ELEMENT_TET10)
+            for (int i = 0; i < 3; i++)
+                natural[k] += at[i] * (piece->corners[i + 1][k] - from);
+        else
+            natural[k] += 0.5 * (1.0 + at[k]) * (to - from);
+    }
+}
+
+/* eight pieces of an eighth of the volume */
+static void split_piece(enum element_type type, const struct piece *piece, struct piece parts[8])
+{
+    if (type != ELEMENT_TET10) {
+        for (int i = 0; i < 8; i++)
+            for (int k = 0; k < 3; k++) {
+                double from = piece->corners[0][k], half = 0.5 * (piece->corners[1][k] - from);
+                parts[i].corners[0][k] = from + (i >> k & 1) * half;
+                parts[i].corners[1][k] = parts[i].corners[0][k] + half;
+            }
+        return;
+    }
+    /* corners 0 to 3, middles 01 02 03 12 13 23; four at the corners, four about the line 03-12 */
+    static const int PARTS[8][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
+                                    {6, 7, 4, 5}, {6, 7, 5, 9}, {6, 7, 9, 8}, {6, 7, 8, 4}};
+    static const int MIDDLES[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+    double points[10][3];
+    memcpy(points, piece->corners, sizeof piece->corners);
+    for (int m = 0; m < 6; m++)
+        for (int k = 0; k < 3; k++)
+            points[4 + m][k] = 0.5 * (points[MIDDLES[m][0]][k] + points[MIDDLES[m][1]][k]);
+    for (int i = 0; i < 8; i++)
+        for (int c = 0; c < 4; c++)
+            memcpy(parts[i].corners[c], points[PARTS[i][c]], sizeof points[0]);
+}
+
+static void add_mass_point(struct mass_sum *sum, const double x[3], double volume,
+                           const double *shape)
+{
+    double u[3];
+    boussinesq3_field(&sum->place->load, x, u, NULL);
+    for (size_t n = 0; n < sum->rule->node_count; n++)
+        add_scaled3(volume * shape[n], u, sum->sums[n]);
+}
+
+/* pieces are split while they are near the place; `scale`: their volume over the element's */
+static void add_piece(struct mass_sum *sum, const struct piece *piece, double scale, int splits)
+{
+    const struct element_rule *rule = sum->rule;
+    struct element_point here[ELEMENT_MOST_POINTS];
+    double shapes[ELEMENT_MOST_POINTS][ELEMENT_MOST_NODES], nearest = INFINITY, volume = 0.0;
+    /* points of the piece, its volume, and the nearest to the place */
+    for (size_t p = 0; p < rule->point_count; p++) {
+        double natural[3], gradient[ELEMENT_MOST_NODES][3], offset[3];
+        point_in_piece(sum->type, piece, rule->at[p], natural);
+        element_shapes(sum->type, natural, shapes[p], gradient);
+        element_map(rule->node_count, sum->nodes, shapes[p], gradient, &here[p]);
+        sub3(here[p].position, sum->place->load.point, offset);
+        nearest = fmin(nearest, norm3(offset));
+        volume += scale * rule->weight[p] * here[p].volume;
+    }
+    /* near: by eighths */
+    if (splits < VOLUME_SPLITS && nearest < VOLUME_FAR * cbrt(volume)) {
+        struct piece parts[8];
+        split_piece(sum->type, piece, parts);
+        for (int i = 0; i < 8; i++)
+            add_piece(sum, &parts[i], scale / 8.0, splits + 1);
+        return;
+    }
+    /* far: by the rule */
+    for (size_t p = 0; p < rule->point_count; p++)
+        add_mass_point(sum, here[p].position, scale * rule->weight[p] * here[p].volume, shapes[p]);
+}
+
+/* Adds the field's displacements u as mass feels them, the integral of rho N^T u, to momentum
+ * ([3 node_count], kg m/N). */
+static void flexibility_volume_add_mass(const struct volume_rule *rule,
+                                        const struct flexibility_place *place, double *momentum)
+{
+    static const struct piece WHOLE[2] = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                          {{{-1, -1, -1}, {1, 1, 1}}}};
+    const struct solid_mesh *mesh = rule->mesh;
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        enum element_type type = mesh->types[e];
+        double nodes[ELEMENT_MOST_NODES][3], offset[3];
+        struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{0.0}}};
+        /* near elements in pieces, far ones by their own points */
+        sub3(rule->centres[e], place->load.point, offset);
+        if (norm3(offset) < VOLUME_FAR * rule->radii[e]) {
+            element_points(mesh, e, nodes);
+            add_piece(&sum, &WHOLE[type != ELEMENT_TET10], 1.0, 0);
+        } else {
+            for (size_t i = rule->first[e]; i < rule->first[e + 1]; i++)
+                add_mass_point(&sum, rule->points[i], rule->points[i][3],
+                               sum.rule->shape[i - rule->first[e]]);
+        }
+        /* to the nodes, as momentum */
+        double density = mesh->part[mesh->parts[e]].material.density;
+        for (size_t n = 0; n < sum.rule->node_count; n++)
+            add_scaled3(density, sum.sums[n], momentum + 3 * mesh->nodes[mesh->first[e] + n]);
+    }
+}
+
+/* ---- integrals over the volume: stiffness ---- */
+
+/* stress of a strain (xx yy zz xy yz zx, shears as half the angle), and the strain of a stress */
+static void hooke(const struct material *material, const double strain[6], double stress[6])
+{
+    double twice = material->young / (1.0 + material->poisson);
+    double lame = twice * material->poisson / (1.0 - 2.0 * material->poisson);
+    double dilatation = strain[0] + strain[1] + strain[2];
+    for (int k = 0; k < 6; k++)
+        stress[k] = twice * strain[k] + (k < 3 ? lame * dilatation : 0.0);
+}
+
+static void hooke_inverse(const struct material *material, const double stress[6], double strain[6])
+{
+    double sum = stress[0] + stress[1] + stress[2];
+    for (int k = 0; k < 6; k++)
+        strain[k] =
+            ((1.0 + material->poisson) * stress[k] - (k < 3 ? material->poisson * sum : 0.0)) /
+            material->young;
+}
+
+static double tensor_product(const double a[6], const double b[6])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] +
+           2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/* B^T stress in one point */
+static void add_stress(const struct solid_mesh *mesh, size_t element,
+                       const struct element_point *here, const double stress[6], double *force)
+{
+    size_t first = mesh->first[element], count = mesh->first[element + 1] - first;
+    for (size_t n = 0; n < count; n++) {
+        double part[3];
+        boussinesq3_traction(stress, here->gradient[n], part);
+        add_scaled3(here->volume, part, force + 3 * mesh->nodes[first + n]);
+    }
+}
+
+/* Where other materials than the place's lie, the field's stress there is not the half-space's: D'
+ * the place's elasticity, D the part's, e the field's strain. Adds the nodal forces of (D' - D) e
+ * to force and returns its work on e. 0 in a body of one material. */
+static double flexibility_volume_add_parts(const struct volume_rule *rule,
+                                           const struct flexibility_place *place, double *force)
+{
+    const struct solid_mesh *mesh = rule->mesh;
+    const struct material *own = &mesh->part[place->part].material;
+    double work = 0.0;
+    /* elements of the place's own stiffness balance already */
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        const struct material *other = &mesh->part[mesh->parts[e]].material;
+        if (other->young == own->young && other->poisson == own->poisson)
+            continue;
+        const struct element_rule *points = &rule->rules[mesh->types[e]];
+        double nodes[ELEMENT_MOST_NODES][3];
+        element_points(mesh, e, nodes);
+        /* the stress of the place's material, less that of this one, at one strain */
+        for (size_t p = 0; p < points->point_count; p++) {
+            struct element_point here;
+            double stress[6], strain[6], there[6];
+            element_at(points, p, nodes, &here);
+            boussinesq3_field(&place->load, here.position, NULL, stress);
+            hooke_inverse(own, stress, strain);
+            hooke(other, strain, there);
+            for (int k = 0; k < 6; k++)
+                stress[k] -= there[k];
+            add_stress(mesh, e, &here, stress, force);
+            work += here.volume * tensor_product(stress, strain);
+        }
+    }
+    return work;
+}
+
+static bool has_held(const struct solid_mesh *mesh, size_t element, const bool *held)
+{
+    for (size_t i = mesh->first[element]; i < mesh->first[element + 1]; i++)
+        if (held[3 * mesh->nodes[i]])
+            return true;
+    return false;
+}
+
+/* forces and mass of one point of a shifted element; returns the work */
+static double add_shift(const struct solid_mesh *mesh, size_t element, const double *shape,
+                        const struct element_point *here, const double *shifts, double *force,
+                        double *momentum)
+{
+    const struct material *material = &mesh->part[mesh->parts[element]].material;
+    const size_t *nodes = mesh->nodes + mesh->first[element];
+    size_t count = mesh->first[element + 1] - mesh->first[element];
+    double strain[6] = {0.0}, stress[6], shift[3] = {0.0};
+    for (size_t n = 0; n < count; n++) {
+        const double *u = shifts + 3 * nodes[n], *slope = here->gradient[n];
+        add_scaled3(shape[n], u, shift);
+        for (int k = 0; k < 6; k++)
+            strain[k] += 0.5 * (slope[STRAIN_ROW[k]] * u[STRAIN_COLUMN[k]] +
+                                slope[STRAIN_COLUMN[k]] * u[STRAIN_ROW[k]]);
+    }
+    hooke(material, strain, stress);
+    double work = here->volume * tensor_product(stress, strain);
+    for (int k = 0; k < 6; k++)
+        stress[k] = -stress[k];
+    add_stress(mesh, element, here, stress, force);
+    for (size_t n = 0; n < count; n++)
+        add_scaled3(material->density * here->volume * shape[n], shift, momentum + 3 * nodes[n]);
+    return work;
+}
+
+/* Held nodes are shifted (`shifts`, [3 node_count], zero at all others): subtracts the forces K
+ * times shifts from force, adds the mass M times shifts to momentum, and returns the work of the
+ * first on the shifts. */
+static double flexibility_volume_add_shifts(const struct volume_rule *rule, const bool *held,
+                                            const double *shifts, double *force, double *momentum)
+{
+    const struct solid_mesh *mesh = rule->mesh;
+    double work = 0.0;
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        if (!has_held(mesh, e, held))
+            continue;
+        const struct element_rule *points = &rule->rules[mesh->types[e]];
+        double nodes[ELEMENT_MOST_NODES][3];
+        element_points(mesh, e, nodes);
+        for (size_t p = 0; p < points->point_count; p++) {
+            struct element_point here;
+            element_at(points, p, nodes, &here);
+            work += add_shift(mesh, e, points->shape[p], &here, shifts, force, momentum);
+        }
+    }
+    return work;
+}
+
+/* ---- the solution on the mesh ---- */
 
 /* Nodal forces out of balance by more than this part of the force mean a surface that is not
  * closed or not the mesh's own; quadrature leaves less than 1e-7. */
@@ -40,7 +590,7 @@ struct flexibility_terms {
     double value, imbalance;
 };
 
-static double dot(size_t n, const double *a, const double *b)
+static double column_dot(size_t n, const double *a, const double *b)
 {
     double sum = 0.0;
     for (size_t i = 0; i < n; i++)
@@ -125,8 +675,8 @@ static double displacement_at(const struct flexibility *f, const struct flexibil
 
 /* Held nodes: w1 = -u_B there (into shifts, zero elsewhere) turns f into f - K w1 and g into g +
  * Psi^T M w1, and adds 2 f.w1 - w1.K w1 to C. */
-static double hold(const struct flexibility *f, const struct flexibility_place *place,
-                   double *force, double *momentum, double *shifts)
+static double hold_nodes(const struct flexibility *f, const struct flexibility_place *place,
+                         double *force, double *momentum, double *shifts)
 {
     const bool *held = f->body.matrices->held;
     memset(shifts, 0, f->n * sizeof *shifts);
@@ -138,7 +688,7 @@ static double hold(const struct flexibility *f, const struct flexibility_place *
         boussinesq3_field(&place->load, f->body.mesh->points[i / 3], shifts + i, NULL);
         scale3(-1.0, shifts + i, shifts + i);
     }
-    double value = 2.0 * dot(f->n, force, shifts);
+    double value = 2.0 * column_dot(f->n, force, shifts);
     value -= flexibility_volume_add_shifts(&f->volume, held, shifts, force, momentum);
     for (size_t i = 0; i < f->n; i++)
         force[i] = held[i] ? 0.0 : force[i];
@@ -147,8 +697,8 @@ static double hold(const struct flexibility *f, const struct flexibility_place *
 
 /* integrals of the half-space's field: nodal forces, what mass feels, w without x and Psi; returns
  * C without what those add */
-static double integrate(const struct flexibility *f, const struct flexibility_place *place,
-                        double *force, double *momentum, double *rest)
+static double integrate_field(const struct flexibility *f, const struct flexibility_place *place,
+                              double *force, double *momentum, double *rest)
 {
     memset(force, 0, f->n * sizeof *force);
     memset(momentum, 0, f->n * sizeof *momentum);
@@ -157,19 +707,19 @@ static double integrate(const struct flexibility *f, const struct flexibility_pl
     if (f->body.mesh->part_count > 1)
         value += flexibility_volume_add_parts(&f->volume, place, force);
     flexibility_volume_add_mass(&f->volume, place, momentum);
-    return value + hold(f, place, force, momentum, rest);
+    return value + hold_nodes(f, place, force, momentum, rest);
 }
 
 /* Forces of all columns without Psi, and w without x. Rigid motions balance a free body: f has the
  * work p on them. */
-static void prepare(struct flexibility *f, size_t count, struct flexibility_terms *terms)
+static void prepare_columns(struct flexibility *f, size_t count, struct flexibility_terms *terms)
 {
     size_t n = f->n, psi_count = f->psi_count;
     struct dense psi = {n, psi_count, f->psi}, mass_psi = {n, psi_count, f->mass_psi};
     double *all_own = f->products, *all_g = all_own + FLEXIBILITY_BLOCK * psi_count;
     for (size_t c = 0; c < count; c++)
         terms[c].value =
-            integrate(f, &f->places[c], f->force + c * n, f->work + c * n, f->rest + c * n);
+            integrate_field(f, &f->places[c], f->force + c * n, f->work + c * n, f->rest + c * n);
     dense_products(psi, (struct dense){n, count, f->force}, all_own);
     dense_products(psi, (struct dense){n, count, f->work}, all_g);
     dense_combine(mass_psi, -1.0, all_own, 1.0, count, f->force);
@@ -196,8 +746,8 @@ static void prepare(struct flexibility *f, size_t count, struct flexibility_term
 
 /* One step for all columns: (K + s M) y = f + s M x, y without Psi, then x = y. Adds s x.M (y - x)
  * to f.y, whose error is then of the square of y's; `work` and `step` are those two terms. */
-static enum percuss_status advance(struct flexibility *f, size_t count, double *work, double *step,
-                                   struct fault *fault)
+static enum percuss_status advance_columns(struct flexibility *f, size_t count, double *work,
+                                           double *step, struct fault *fault)
 {
     /* (K + s M)^-1 of loads and of the last step */
     size_t n = f->n;
@@ -213,13 +763,13 @@ static enum percuss_status advance(struct flexibility *f, size_t count, double *
     /* both terms of the work: of the load, and of the step */
     for (size_t c = 0; c < count; c++) {
         const double *y = f->work + c * n;
-        work[c] = dot(n, f->force + c * n, y);
-        step[c] = -f->body.shift * dot(n, y, f->mass_x + c * n);
+        work[c] = column_dot(n, f->force + c * n, y);
+        step[c] = -f->body.shift * column_dot(n, y, f->mass_x + c * n);
     }
     /* M y, which the next step takes too */
     sparse_multiply(&f->body.matrices->mass, count, f->work, f->mass_x);
     for (size_t c = 0; c < count; c++)
-        step[c] += f->body.shift * dot(n, f->work + c * n, f->mass_x + c * n);
+        step[c] += f->body.shift * column_dot(n, f->work + c * n, f->mass_x + c * n);
     /* y is the next x */
     double *swap = f->x;
     f->x = f->work;
@@ -228,13 +778,13 @@ static enum percuss_status advance(struct flexibility *f, size_t count, double *
 }
 
 /* the first `count` columns, prepared */
-static enum percuss_status iterate(struct flexibility *f, size_t count, double *work,
-                                   struct fault *fault)
+static enum percuss_status iterate_columns(struct flexibility *f, size_t count, double *work,
+                                           struct fault *fault)
 {
     double step[FLEXIBILITY_BLOCK];
     memset(f->mass_x, 0, count * f->n * sizeof *f->mass_x);
     for (int i = 0; i < MOST_STEPS; i++) {
-        enum percuss_status status = advance(f, count, work, step, fault);
+        enum percuss_status status = advance_columns(f, count, work, step, fault);
         if (status != PERCUSS_OK)
             return status;
         bool done = true;
@@ -260,8 +810,8 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
     struct flexibility_terms terms[FLEXIBILITY_BLOCK];
     double work[FLEXIBILITY_BLOCK];
     memcpy(f->places, places, count * sizeof *places);
-    prepare(f, count, terms);
-    enum percuss_status status = iterate(f, count, work, fault);
+    prepare_columns(f, count, terms);
+    enum percuss_status status = iterate_columns(f, count, work, fault);
     if (status != PERCUSS_OK)
         return status;
     for (size_t c = 0; c < count; c++) {

@@ -11,6 +11,172 @@
 #include "model/facet.h"
 #include "model/vector.h"
 
+/* ---- quadrature over the surface ---- */
+
+/* Degree 6, twelve points (Dunavant 1985): volume coordinates and the part of the area. */
+static const double TRIANGLE_RULE[SURFACE_RULE_POINTS][4] = {
+    {0.501426509658179, 0.249286745170910, 0.249286745170910, 0.116786275726379},
+    {0.249286745170910, 0.501426509658179, 0.249286745170910, 0.116786275726379},
+    {0.249286745170910, 0.249286745170910, 0.501426509658179, 0.116786275726379},
+    {0.873821971016996, 0.063089014491502, 0.063089014491502, 0.050844906370207},
+    {0.063089014491502, 0.873821971016996, 0.063089014491502, 0.050844906370207},
+    {0.063089014491502, 0.063089014491502, 0.873821971016996, 0.050844906370207},
+    {0.053145049844817, 0.310352451033784, 0.636502499121399, 0.082851075618374},
+    {0.053145049844817, 0.636502499121399, 0.310352451033784, 0.082851075618374},
+    {0.310352451033784, 0.053145049844817, 0.636502499121399, 0.082851075618374},
+    {0.310352451033784, 0.636502499121399, 0.053145049844817, 0.082851075618374},
+    {0.636502499121399, 0.053145049844817, 0.310352451033784, 0.082851075618374},
+    {0.636502499121399, 0.310352451033784, 0.053145049844817, 0.082851075618374}};
+
+size_t surface_rule_triangles(size_t count, struct surface_triangle triangles[2])
+{
+    static const struct surface_triangle WHOLE = {{{0, 0}, {1, 0}, {0, 1}}};
+    static const struct surface_triangle HALVES[2] = {{{{-1, -1}, {1, -1}, {1, 1}}},
+                                                      {{{-1, -1}, {1, 1}, {-1, 1}}}};
+    if (count == FACE_TRIANGLE6) {
+        triangles[0] = WHOLE;
+        return 1;
+    }
+    memcpy(triangles, HALVES, sizeof HALVES);
+    return 2;
+}
+
+void surface_rule_place(const struct surface_triangle *triangle, double at[][2], double weights[])
+{
+    const double(*c)[2] = triangle->corners;
+    double area = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
+                         (c[2][0] - c[0][0]) * (c[1][1] - c[0][1]));
+    for (int p = 0; p < SURFACE_RULE_POINTS; p++) {
+        for (int k = 0; k < 2; k++)
+            at[p][k] = TRIANGLE_RULE[p][0] * c[0][k] + TRIANGLE_RULE[p][1] * c[1][k] +
+                       TRIANGLE_RULE[p][2] * c[2][k];
+        weights[p] = TRIANGLE_RULE[p][3] * area;
+    }
+}
+
+void surface_rule_split(const struct surface_triangle *triangle, struct surface_triangle parts[4])
+{
+    const double(*c)[2] = triangle->corners;
+    double middle[3][2];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++)
+            middle[i][k] = 0.5 * (c[i][k] + c[(i + 1) % 3][k]);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++) {
+            parts[i].corners[0][k] = c[i][k];
+            parts[i].corners[1][k] = middle[i][k];
+            parts[i].corners[2][k] = middle[(i + 2) % 3][k];
+            parts[3].corners[i][k] = middle[i][k];
+        }
+}
+
+void surface_rule_nodes(const struct surface_rule *rule, size_t face,
+                        double nodes[FACE_MOST_NODES][3])
+{
+    const struct surface_face *f = &rule->surface->faces[face];
+    for (size_t i = 0; i < f->count; i++)
+        memcpy(nodes[i], rule->mesh->points[f->nodes[i]], sizeof nodes[i]);
+}
+
+static size_t face_point_count(size_t count)
+{
+    return count == FACE_TRIANGLE6 ? SURFACE_RULE_POINTS : 2 * SURFACE_RULE_POINTS;
+}
+
+/* local coordinates and weights of all points of a face */
+static void place_face_points(size_t count, double at[SURFACE_RULE_MOST][2],
+                              double weights[SURFACE_RULE_MOST])
+{
+    struct surface_triangle triangles[2];
+    size_t triangle_count = surface_rule_triangles(count, triangles);
+    for (size_t t = 0; t < triangle_count; t++)
+        surface_rule_place(&triangles[t], at + t * SURFACE_RULE_POINTS,
+                           weights + t * SURFACE_RULE_POINTS);
+}
+
+double surface_rule_sphere(size_t count, double points[][3], double centre[3])
+{
+    double radius = 0.0;
+    memset(centre, 0, 3 * sizeof *centre);
+    for (size_t n = 0; n < count; n++)
+        add_scaled3(1.0 / (double)count, points[n], centre);
+    for (size_t n = 0; n < count; n++) {
+        double offset[3];
+        sub3(points[n], centre, offset);
+        radius = fmax(radius, norm3(offset));
+    }
+    return radius;
+}
+
+static void surface_rule_fill_face(struct surface_rule *rule, size_t face)
+{
+    size_t count = rule->surface->faces[face].count;
+    double nodes[FACE_MOST_NODES][3], at[SURFACE_RULE_MOST][2], weights[SURFACE_RULE_MOST];
+    surface_rule_nodes(rule, face, nodes);
+    /* points of integration, each with its area as a vector */
+    place_face_points(count, at, weights);
+    for (size_t p = 0; p < face_point_count(count); p++) {
+        size_t i = rule->first[face] + p;
+        double area[3];
+        facet_place((int)count, nodes, at[p][0], at[p][1], rule->points[i], area);
+        scale3(weights[p], area, rule->areas[i]);
+    }
+    rule->radii[face] = surface_rule_sphere(count, nodes, rule->centres[face]);
+}
+
+bool surface_rule_make(struct surface_rule *rule, const struct solid_mesh *mesh,
+                       const struct surface *surface)
+{
+    /* room for what there is one of a face */
+    size_t faces = surface->face_count, total = 0;
+    *rule = (struct surface_rule){.mesh = mesh, .surface = surface};
+    rule->first = malloc((faces + 1) * sizeof *rule->first);
+    rule->centres = malloc(faces * sizeof *rule->centres);
+    rule->radii = malloc(faces * sizeof *rule->radii);
+    if (!rule->first || !rule->centres || !rule->radii)
+        goto no_memory;
+    /* where the points of each face begin */
+    for (size_t f = 0; f < faces; f++) {
+        rule->first[f] = total;
+        total += face_point_count(surface->faces[f].count);
+    }
+    rule->first[faces] = total;
+    /* the points */
+    rule->points = malloc(total * sizeof *rule->points);
+    rule->areas = malloc(total * sizeof *rule->areas);
+    if (!rule->points || !rule->areas)
+        goto no_memory;
+
+    /* shapes at the points, for each type of face */
+    static const int COUNTS[3] = {FACE_TRIANGLE6, FACE_QUAD8, FACE_QUAD9};
+    for (int kind = 0; kind < 3; kind++) {
+        double at[SURFACE_RULE_MOST][2], weights[SURFACE_RULE_MOST];
+        place_face_points((size_t)COUNTS[kind], at, weights);
+        for (size_t p = 0; p < face_point_count((size_t)COUNTS[kind]); p++)
+            facet_shape(COUNTS[kind], at[p][0], at[p][1], rule->shapes[COUNTS[kind]][p], NULL,
+                        NULL);
+    }
+    for (size_t f = 0; f < faces; f++)
+        surface_rule_fill_face(rule, f);
+    return true;
+
+no_memory:
+    surface_rule_free(rule);
+    return false;
+}
+
+void surface_rule_free(struct surface_rule *rule)
+{
+    free(rule->first);
+    free(rule->points);
+    free(rule->areas);
+    free(rule->centres);
+    free(rule->radii);
+    *rule = (struct surface_rule){0};
+}
+
+/* ---- sharp edges and places ---- */
+
 /* A face is plane if its nodes lie in a plane to this part of its size: tilts of this order change
  * the flexibility by as much over E h. */
 static const double PLANE = 1e-5;
@@ -30,8 +196,6 @@ static const double KNOWN_FROM = 0.3;
 static const double THIN = 0.4;
 static const double OPPOSITE = 0.7;
 
-/* ---- sharp edges ---- */
-
 struct half_edge {
     size_t ends[2], middle; /* nodes, ends[0] < ends[1] */
     size_t patch, face;
@@ -47,7 +211,7 @@ static int half_edge_compare(const void *a, const void *b)
     return p->patch < q->patch ? -1 : p->patch > q->patch;
 }
 
-static size_t collect(const struct surface *surface, struct half_edge *all)
+static size_t collect_edges(const struct surface *surface, struct half_edge *all)
 {
     size_t count = 0;
     for (size_t f = 0; f < surface->face_count; f++) {
@@ -63,7 +227,7 @@ static size_t collect(const struct surface *surface, struct half_edge *all)
 }
 
 /* all nodes in the plane of the first three corners */
-static bool is_flat(int count, const double (*nodes)[3], double radius)
+static bool is_flat_face(int count, const double (*nodes)[3], double radius)
 {
     double a[3], b[3], normal[3];
     sub3(nodes[1], nodes[0], a);
@@ -79,7 +243,7 @@ static bool is_flat(int count, const double (*nodes)[3], double radius)
 }
 
 /* patches whose points all lie in the tangent plane of the first */
-static void find_planes(const struct surface_rule *rule, bool *plane)
+static void find_plane_patches(const struct surface_rule *rule, bool *plane)
 {
     const struct surface *surface = rule->surface;
     for (size_t patch = 0; patch < surface->patch_count; patch++) {
@@ -113,8 +277,8 @@ static bool is_hollow(const struct surface_rule *rule, const struct half_edge *o
 }
 
 /* How far the face reaches from the edge, at most the mesh's size. */
-static double find_reach_of(const struct flexibility_edges *edges, const struct surface_rule *rule,
-                            size_t face)
+static double find_edge_reach(const struct flexibility_edges *edges,
+                              const struct surface_rule *rule, size_t face)
 {
     const struct surface_face *f = &rule->surface->faces[face];
     double size = rule->surface->size;
@@ -131,7 +295,7 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
     struct half_edge *all = malloc(4 * rule->surface->face_count * sizeof *all);
     if (!all)
         return false;
-    size_t count = collect(rule->surface, all);
+    size_t count = collect_edges(rule->surface, all);
     qsort(all, count, sizeof *all, half_edge_compare);
 
     /* an edge of two faces of one patch is none; what is left moves to the front */
@@ -157,7 +321,7 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
         flexibility_edges_free(edges);
         return false;
     }
-    find_planes(rule, edges->plane);
+    find_plane_patches(rule, edges->plane);
     edges->count = kept;
     for (size_t i = 0; i < kept; i++) {
         const size_t nodes[3] = {all[i].ends[0], all[i].middle, all[i].ends[1]};
@@ -168,7 +332,7 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
     }
     free(all);
     for (size_t face = 0; face < rule->surface->face_count; face++)
-        edges->reach[face] = find_reach_of(edges, rule, face);
+        edges->reach[face] = find_edge_reach(edges, rule, face);
     return true;
 }
 
@@ -209,7 +373,8 @@ double flexibility_edges_distance(const struct flexibility_edges *edges, size_t 
 
 /* ---- one place ---- */
 
-static void unit_normal(int count, const double (*nodes)[3], double u, double v, double normal[3])
+static void unit_normal_at(int count, const double (*nodes)[3], double u, double v,
+                           double normal[3])
 {
     double area[3];
     facet_place(count, nodes, u, v, NULL, area);
@@ -232,8 +397,8 @@ static void move_off_rim(int count, double *u, double *v)
 }
 
 /* derivatives of the position by differences, exact for these faces: u, v, uu, uv, vv */
-static void differentiate(int count, const double (*nodes)[3], double u, double v,
-                          double derivative[5][3])
+static void differentiate_face(int count, const double (*nodes)[3], double u, double v,
+                               double derivative[5][3])
 {
     double at[3][3][3];
     for (int i = -1; i <= 1; i++)
@@ -249,7 +414,7 @@ static void differentiate(int count, const double (*nodes)[3], double u, double 
 }
 
 /* half the trace of the second fundamental form in the metric of the first */
-static double mean_curvature(double derivative[5][3], const double normal[3])
+static double mean_curvature_of(double derivative[5][3], const double normal[3])
 {
     const double *a = derivative[0], *b = derivative[1];
     double e = dot3(a, a), f = dot3(a, b), g = dot3(b, b);
@@ -358,7 +523,7 @@ struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
     double nodes[FACE_MOST_NODES][3], derivative[5][3], normal[3], least;
     surface_rule_nodes(rule, face, nodes);
     struct flexibility_place place = {.face = face, .part = f->part};
-    place.flat = is_flat(f->count, nodes, rule->radii[face]);
+    place.flat = is_flat_face(f->count, nodes, rule->radii[face]);
     if (!edges->plane[f->patch])
         move_off_rim(f->count, &u, &v);
     place.u = u;
@@ -367,15 +532,15 @@ struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
     /* the load */
     const struct material *material = &rule->mesh->part[f->part].material;
     facet_place(f->count, nodes, u, v, place.load.point, NULL);
-    unit_normal(f->count, nodes, u, v, normal);
+    unit_normal_at(f->count, nodes, u, v, normal);
     scale3(-1.0, normal, place.load.inward);
     place.load.young = material->young;
     place.load.poisson = material->poisson;
     place.load.reach = find_reach(rule, &place.load);
 
     /* the face about it */
-    differentiate(f->count, nodes, u, v, derivative);
-    place.bend = place.flat ? 0.0 : mean_curvature(derivative, normal);
+    differentiate_face(f->count, nodes, u, v, derivative);
+    place.bend = place.flat ? 0.0 : mean_curvature_of(derivative, normal);
     measure_rim(f->count, derivative, u, v, &least, &place.rim);
     place.cut = place.flat ? 0.0 : CUT * least;
     place.edge = flexibility_edges_distance(edges, f->patch, place.load.point);

@@ -3,10 +3,210 @@
 
 #include "reduce/program.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "reduce/report.h"
+#include "reduce/options.h"
+#include "reduce/reduction.h"
+
+/* ---- the report on standard output ---- */
+
+enum { SHOWN_FREQUENCIES = 10 };
+
+/* Periods of the last frequency that a contact must last for its restitution to be good to 5e-4,
+ * and to 1 %, on a rod. */
+static const double PERIODS[2] = {3.0, 2.0};
+
+static double hertz(double omega)
+{
+    return omega / (2.0 * M_PI);
+}
+
+/* How much more the elements hold than the surface encloses, of the volume. */
+static double volume_gap(const struct reduction *reduction)
+{
+    return reduction->bulk.volume / reduction->enclosed - 1.0;
+}
+
+static void tell_mass(const struct reduction *reduction)
+{
+    const struct bulk *bulk = &reduction->bulk;
+    const double *j = bulk->inertia;
+    printf("mass            %.6g kg\n", bulk->mass);
+    printf("centre          %.6g %.6g %.6g m\n", bulk->centre[0], bulk->centre[1], bulk->centre[2]);
+    printf("inertia         xx %.6g yy %.6g zz %.6g xy %.6g yz %.6g zx %.6g kg m^2\n", j[0], j[4],
+           j[8], j[1], j[5], j[2]);
+    printf("volume          %.6g m^3; the surface encloses the same within %.1e of it\n",
+           bulk->volume, fabs(volume_gap(reduction)));
+    if (reduction->surface.straight)
+        printf("                %zu of %zu edges on curved ground are straight: the volume is that "
+               "of the facets\n",
+               reduction->surface.straight, reduction->surface.edges);
+    printf("smallest det J  %.3g of its element's mean, element %zu\n", bulk->smallest_det,
+           reduction->mesh.element_labels[bulk->smallest_at]);
+}
+
+/* The shortest contacts that modes and mesh serve to 5e-4, and to 1 %, s. */
+static double shortest_contact(const struct reduction *reduction, int which)
+{
+    const struct modes *modes = &reduction->modes;
+    return PERIODS[which] / fmin(hertz(modes->omega[modes->count - 1]), reduction->good_to);
+}
+
+static void tell_modes(const struct reduction *reduction)
+{
+    const struct modes *modes = &reduction->modes;
+    printf("modes           %zu; by inertia %zu lie below %.6g Hz; largest |x'Mx - I| %.1e\n",
+           modes->count, modes->confirmed, hertz(modes->confirmed_below), modes->doubt);
+    if (reduction->options->modes && modes->count != reduction->options->modes)
+        printf(
+            "                %zu were asked for, the last of which has the frequency of the next: "
+            "copies stay together\n",
+            reduction->options->modes);
+    printf("frequencies    ");
+    for (size_t i = 0; i < modes->count && i < SHOWN_FREQUENCIES; i++)
+        printf(" %.6g", hertz(modes->omega[i]));
+    if (modes->count > SHOWN_FREQUENCIES)
+        printf(" ... %.6g", hertz(modes->omega[modes->count - 1]));
+    printf(" Hz\n");
+    printf("mesh            good to %.4g Hz: eight elements, %.3g mm, to a shear wave%s\n",
+           reduction->good_to, 1e3 * reduction->surface.size,
+           hertz(modes->omega[modes->count - 1]) > 1.001 * reduction->good_to
+               ? "; modes above are the mesh's"
+               : "");
+    printf(
+        "serves          contacts of %.3g us and longer to 5e-4 of the restitution, of %.3g us to "
+        "1 %%\n",
+        1e6 * shortest_contact(reduction, 0), 1e6 * shortest_contact(reduction, 1));
+}
+
+static void tell_flexibility(const struct reduction *reduction)
+{
+    const struct sites_report *sites = &reduction->sites;
+    printf("flexibility     %zu sites %.3g mm apart, without %zu modes; error of interpolation "
+           "%.1e m/N, "
+           "at most %.1e; forces balance to %.1e\n",
+           sites->count, 1e3 * sites->spacing, sites->removed, sites->usual_error,
+           sites->largest_error, sites->imbalance);
+    if (sites->unknown)
+        printf("                unknown at %zu of them%s\n", sites->unknown,
+               sites->thin ? ": walls too thin for the mesh" : "");
+    if (sites->withdrawn)
+        printf("                unknown on %zu of %zu faces: a hit there is refused\n",
+               sites->withdrawn, reduction->body->face_count);
+    if (isfinite(sites->thinnest))
+        printf("walls           as thin as %.3g mm: elements of %.3g mm there make flexibility "
+               "good to "
+               "2 %%\n",
+               1e3 * sites->thinnest, 1.5e3 * sites->thinnest);
+}
+
+static void report_text(const struct reduction *reduction)
+{
+    const struct options *options = reduction->options;
+    printf("%s: %zu nodes, %zu elements, %zu part%s; %.4g x %.4g x %.4g mm\n", options->file,
+           reduction->mesh.node_count, reduction->mesh.element_count, reduction->mesh.part_count,
+           reduction->mesh.part_count == 1 ? "" : "s", 1e3 * reduction->findings.extent[0],
+           1e3 * reduction->findings.extent[1], 1e3 * reduction->findings.extent[2]);
+    tell_mass(reduction);
+    if (reduction->supports[0])
+        printf("held            %s; %zu motion%s as a whole left\n", reduction->supports,
+               reduction->task.rigid.count, reduction->task.rigid.count == 1 ? "" : "s");
+    tell_modes(reduction);
+    tell_flexibility(reduction);
+    printf("%s: %.12s, %.1f s\n", options->body, reduction->body->hash, reduction->seconds);
+}
+
+/* A number as JSON has it: null where there is none. */
+static void put_number(const char *name, double value)
+{
+    if (isfinite(value))
+        printf(",\n  \"%s\": %.17g", name, value);
+    else
+        printf(",\n  \"%s\": null", name);
+}
+
+static void put_count(const char *name, size_t value)
+{
+    printf(",\n  \"%s\": %zu", name, value);
+}
+
+static void put_text(const char *name, const char *text)
+{
+    printf("%s\"", name);
+    for (; *text; text++)
+        if (*text == '"' || *text == '\\')
+            printf("\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            printf("\\u%04x", *text);
+        else
+            putchar(*text);
+    putchar('"');
+}
+
+static void put_list(const char *name, size_t count, const double *values, double factor)
+{
+    printf(",\n  \"%s\": [", name);
+    for (size_t i = 0; i < count; i++)
+        printf("%s%.17g", i ? ", " : "", factor * values[i]);
+    putchar(']');
+}
+
+/* One JSON object, numbers with 17 digits. */
+static void report_json(const struct reduction *reduction)
+{
+    const struct modes *modes = &reduction->modes;
+    const struct bulk *bulk = &reduction->bulk;
+    const struct sites_report *sites = &reduction->sites;
+    put_text("{\n  \"file\": ", reduction->options->file);
+    put_text(",\n  \"body\": ", reduction->options->body);
+    put_text(",\n  \"hash\": ", reduction->body->hash);
+    /* the mesh */
+    put_count("nodes", reduction->mesh.node_count);
+    put_count("elements", reduction->mesh.element_count);
+    put_count("parts", reduction->mesh.part_count);
+    put_list("extent", 3, reduction->findings.extent, 1.0);
+    put_number("mass", bulk->mass);
+    put_number("volume", bulk->volume);
+    put_number("volume_error", volume_gap(reduction));
+    put_count("straight_edges", reduction->surface.straight);
+    put_list("centre", 3, bulk->centre, 1.0);
+    put_list("inertia", 9, bulk->inertia, 1.0);
+    put_number("smallest_det", bulk->smallest_det);
+    put_count("smallest_det_element", reduction->mesh.element_labels[bulk->smallest_at]);
+    put_number("element_size", reduction->surface.size);
+    put_number("good_to", reduction->good_to);
+    /* its vibration */
+    put_text(",\n  \"held\": ", reduction->supports);
+    put_count("rigid_motions", reduction->task.rigid.count);
+    put_count("modes", modes->count);
+    put_count("confirmed", modes->confirmed);
+    put_number("confirmed_below", hertz(modes->confirmed_below));
+    put_number("orthonormality_error", modes->doubt);
+    put_list("frequencies", modes->count, modes->omega, hertz(1.0));
+    put_number("shortest_contact", shortest_contact(reduction, 0));
+    put_number("shortest_contact_one_percent", shortest_contact(reduction, 1));
+    /* its surface */
+    put_count("sites", sites->count);
+    put_count("sites_unknown", sites->unknown);
+    put_count("sites_on_thin_walls", sites->thin);
+    put_number("thinnest_wall", sites->thinnest);
+    put_count("faces_unknown", sites->withdrawn);
+    put_number("site_spacing", sites->spacing);
+    put_count("modes_removed", sites->removed);
+    put_number("flexibility_error", sites->usual_error);
+    put_number("flexibility_largest_error", sites->largest_error);
+    put_number("force_imbalance", sites->imbalance);
+    put_number("response_asymmetry", sites->asymmetry);
+    printf(",\n  \"warnings\": [");
+    for (size_t i = 0; i < reduction->findings.remark_count; i++)
+        put_text(i ? ", " : "", reduction->findings.remarks[i]);
+    putchar(']');
+    put_number("memory", reduction->cost.memory);
+    put_number("seconds", reduction->seconds);
+    printf("\n}\n");
+}
 
 int program_run(int argc, char **argv)
 {

@@ -12,13 +12,161 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "catalogue/catalogue.h"
 #include "mesh/body_file.h"
 #include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
-#include "reduce/materials.h"
-#include "reduce/rigid_modes.h"
 #include "reduce/vtk.h"
+
+/* ---- progress on standard error ---- */
+
+/* s between lines: on a terminal, elsewhere; and before a guess of the time left is worth a word */
+static const double TERMINAL_PAUSE = 0.2, OTHER_PAUSE = 30.0, FIRST_GUESS = 2.0;
+
+static double clock_seconds(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* `pause` in s; 0: a pause that suits standard error. */
+static struct progress progress_begin(double pause)
+{
+    double start = clock_seconds();
+    bool terminal = isatty(STDERR_FILENO);
+    return (struct progress){.label = "",
+                             .terminal = terminal,
+                             .stages = terminal || pause > 0.0,
+                             .pause = pause > 0.0 ? pause
+                                      : terminal  ? TERMINAL_PAUSE
+                                                  : OTHER_PAUSE,
+                             .start = start,
+                             .told = start,
+                             .share = 1.0};
+}
+
+static double progress_seconds(const struct progress *progress)
+{
+    return clock_seconds() - progress->start;
+}
+
+static void write_progress(struct progress *progress, double done)
+{
+    double elapsed = progress_seconds(progress);
+    fprintf(stderr, "%s%5.1f %%  %s", progress->terminal ? "\r" : "percuss-reduce: ", 100.0 * done,
+            progress->label);
+    if (elapsed > FIRST_GUESS && done > 0.01) {
+        double left = elapsed * (1.0 - done) / done;
+        if (left < 100.0)
+            fprintf(stderr, ", %.0f s left", left);
+        else
+            fprintf(stderr, ", %.0f min left", left / 60.0);
+    }
+    fputs(progress->terminal ? "\033[K" : "\n", stderr);
+    progress->told = clock_seconds();
+}
+
+/* The next stage begins at the part `from` of the whole and is `share` of it. */
+static void progress_stage(struct progress *progress, const char *label, double from, double share)
+{
+    progress->label = label;
+    progress->from = from;
+    progress->share = share;
+    if (progress->stages)
+        write_progress(progress, from);
+}
+
+/* `proceed` of struct watch; always true. */
+static bool progress_show(void *context, double done)
+{
+    struct progress *progress = context;
+    if (clock_seconds() - progress->told >= progress->pause)
+        write_progress(progress, progress->from + progress->share * done);
+    return true;
+}
+
+static void progress_clear(const struct progress *progress)
+{
+    if (progress->terminal)
+        fputs("\r\033[K", stderr);
+}
+
+/* ---- materials of the parts ---- */
+
+static void give_material(struct mesh_part *part, const struct material *material)
+{
+    part->material = *material;
+    part->has_material = true;
+}
+
+/* The material of one part that the command line names. */
+static enum percuss_status assign_part_material(const struct options *options,
+                                                const struct part_option *option,
+                                                struct solid_mesh *mesh, struct fault *fault)
+{
+    struct material material;
+    size_t i = 0;
+    while (i < mesh->part_count && strcmp(mesh->part[i].name, option->part) != 0)
+        i++;
+    if (i == mesh->part_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "--part: %s: the mesh has %zu part%s, the first is \"%s\"", option->part,
+                         mesh->part_count, mesh->part_count == 1 ? "" : "s", mesh->part[0].name);
+    enum percuss_status status =
+        catalogue_material(options->catalogue, option->material, &material, fault);
+    if (!status)
+        give_material(&mesh->part[i], &material);
+    return status;
+}
+
+/* One for all, then those of single parts. */
+static enum percuss_status assign_named_materials(const struct options *options,
+                                                  struct solid_mesh *mesh, struct fault *fault)
+{
+    struct material material;
+    enum percuss_status status = PERCUSS_OK;
+    if (options->material)
+        status = catalogue_material(options->catalogue, options->material, &material, fault);
+    for (size_t i = 0; options->material && !status && i < mesh->part_count; i++)
+        give_material(&mesh->part[i], &material);
+    for (size_t k = 0; !status && k < options->part_count; k++)
+        status = assign_part_material(options, &options->parts[k], mesh, fault);
+    return status;
+}
+
+/* What the command line says wins over what the mesh's file says. PERCUSS_BAD_REQUEST: a part has
+ * no material, or there is no such part or material. */
+static enum percuss_status materials_assign(const struct options *options, struct solid_mesh *mesh,
+                                            struct fault *fault)
+{
+    /* one material given by numbers is that of every part */
+    struct fault inner = {""};
+    if (!isnan(options->young)) {
+        struct material material = {"given",          options->young, options->poisson,
+                                    options->density, INFINITY,       0.0};
+        for (size_t i = 0; i < mesh->part_count; i++)
+            give_material(&mesh->part[i], &material);
+    }
+    /* names on the command line go before it */
+    enum percuss_status status = assign_named_materials(options, mesh, fault);
+    /* each part has one that is good */
+    for (size_t i = 0; !status && i < mesh->part_count; i++) {
+        const struct mesh_part *part = &mesh->part[i];
+        if (!part->has_material)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "part \"%s\": has no material: give --material NAME --catalogue FILE, "
+                             "or --young, --poisson and --density",
+                             part->name);
+        if (material_check(&part->material, &inner))
+            return fault_set(fault, PERCUSS_BAD_REQUEST, "material of part \"%s\": %s", part->name,
+                             inner.text);
+    }
+    return status;
+}
+
+/* ---- the stages of a reduction ---- */
 
 /* Elements of second order for the shortest wave: frequencies are good to 1e-3 then. */
 static const double ELEMENTS_PER_WAVE = 8.0;
@@ -101,7 +249,7 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
 }
 
 /* Holds the named sets; their names go into the file. */
-static enum percuss_status hold(struct reduction *reduction, struct fault *fault)
+static enum percuss_status hold_sets(struct reduction *reduction, struct fault *fault)
 {
     const struct solid_mesh *mesh = &reduction->mesh;
     enum percuss_status status = PERCUSS_OK;
@@ -146,7 +294,7 @@ static enum percuss_status check_scale(const struct reduction *reduction, struct
                      stiffness / mass, ratio);
 }
 
-static enum percuss_status assemble(struct reduction *reduction, struct fault *fault)
+static enum percuss_status assemble_matrices(struct reduction *reduction, struct fault *fault)
 {
     /* matrices from files, which hold what they hold, or from the mesh */
     const struct options *options = reduction->options;
@@ -160,7 +308,7 @@ static enum percuss_status assemble(struct reduction *reduction, struct fault *f
         status = check_scale(reduction, fault);
     /* and what the command line holds */
     if (!status)
-        status = hold(reduction, fault);
+        status = hold_sets(reduction, fault);
     if (status)
         return status;
     /* the task of the modes, and the rigid motions left to it */
@@ -190,8 +338,8 @@ static double free_memory(void)
 }
 
 /* Says what it will take before the first factor, and does not begin what cannot fit. */
-static enum percuss_status estimate(struct reduction *reduction, size_t count, bool counted,
-                                    struct fault *fault)
+static enum percuss_status estimate_cost(struct reduction *reduction, size_t count, bool counted,
+                                         struct fault *fault)
 {
     struct factor *factor;
     size_t n = reduction->task.rigid.n;
@@ -219,7 +367,7 @@ static enum percuss_status estimate(struct reduction *reduction, size_t count, b
 }
 
 /* Which modes: by number, by frequency, or as far as the mesh is good. */
-static enum percuss_status choose(struct reduction *reduction, struct fault *fault)
+static enum percuss_status choose_modes(struct reduction *reduction, struct fault *fault)
 {
     /* how many at most, and what that takes */
     const struct options *options = reduction->options;
@@ -228,7 +376,7 @@ static enum percuss_status choose(struct reduction *reduction, struct fault *fau
     task->most = options->modes ? options->modes : asked ? LIMIT_MODES : OPTIONS_MODES;
     task->below = INFINITY;
     enum percuss_status status =
-        estimate(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
+        estimate_cost(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
     if (status || options->modes)
         return status;
     /* by frequency, asked for or the mesh's own: those below are counted */
@@ -250,7 +398,7 @@ static enum percuss_status choose(struct reduction *reduction, struct fault *fau
     }
     task->below = 2.0 * M_PI * hertz;
     task->known = count;
-    return estimate(reduction, count < task->most ? count : task->most, true, fault);
+    return estimate_cost(reduction, count < task->most ? count : task->most, true, fault);
 }
 
 static enum percuss_status find_modes(struct reduction *reduction, struct fault *fault)
@@ -361,9 +509,9 @@ enum percuss_status reduction_run(const struct options *options, struct reductio
     if (!status)
         status = read_body(reduction, fault);
     if (!status)
-        status = assemble(reduction, fault);
+        status = assemble_matrices(reduction, fault);
     if (!status)
-        status = choose(reduction, fault);
+        status = choose_modes(reduction, fault);
     if (!status)
         status = find_modes(reduction, fault);
     if (!status)

@@ -8,9 +8,19 @@
 #include "mesh/mesh_check.h"
 #include "reduce/modes.h"
 #include "reduce/options.h"
-#include "reduce/progress.h"
 #include "reduce/reduced_body.h"
 #include "reduce/sites.h"
+
+/* Progress on standard error: one line that is written over on a terminal, else a line now and
+ * then.
+ */
+struct progress {
+    const char *label;     /* what is done now */
+    bool terminal, stages; /* a line for each stage too */
+    double pause;          /* s between lines */
+    double start, told;    /* s of a clock */
+    double from, share;    /* of the whole: before what is told now, and its own */
+};
 
 struct reduction {
     const struct options *options;

@@ -7,6 +7,7 @@
 #ifndef PERCUSS_REDUCE_SITE_FIELD_H
 #define PERCUSS_REDUCE_SITE_FIELD_H
 
+#include "model/mesh_body.h"
 #include "reduce/flexibility_place.h"
 
 enum { SITE_FIELD_NEIGHBOURS = 28 };
@@ -39,5 +40,23 @@ double site_field_at(const struct site_field *field, const struct surface_face *
 
 /* How far the value at a place is from what the others say; NAN: nothing. */
 double site_field_error(const struct site_field *field, size_t place);
+
+/* Fills the faces' flexibility and flexibility_slope; the surface is fitted. Along a sharp edge
+ * flexibilities grow like 1/distance: nodes at one get what makes a face's shape functions come out
+ * best within it, from a third of the mesh's edges on. PERCUSS_INTERNAL without memory. */
+enum percuss_status site_field_spread(const struct site_field *field,
+                                      const struct surface_rule *rule, struct mesh_body *body,
+                                      struct fault *fault);
+
+/* Half the trace of a curvature. */
+double site_field_curvature(const struct surface_point *point);
+
+/* Makes all flexibilities of a face NAN where what it says of a place on it is farther from what
+ * was solved for there than answers allow for near an edge, where somewhere near an edge it would
+ * leave a contact with less than no compliance, and on walls that are too thin
+ * (flexibility_place_thin). The faces are filled (site_field_spread.h). Returns how many faces know
+ * nothing. */
+size_t site_field_check(const struct site_field *field, const struct surface_rule *rule,
+                        struct mesh_body *body);
 
 #endif

@@ -15,7 +15,7 @@
 #include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
 #include "physics/reduce/patch.h"
-#include "reduce/rigid_modes.h"
+#include "reduce/modes.h"
 
 /* of the first eigenvalue, about: what makes the factor positive */
 static const double SHIFT = 0.1;

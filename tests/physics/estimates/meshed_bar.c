@@ -10,7 +10,6 @@
 #include "reduce/flexibility.h"
 #include "reduce/modes.h"
 #include "reduce/reduced_body.h"
-#include "reduce/rigid_modes.h"
 #include "shapes/solid_shapes.h"
 
 enum { MOST_MODES = 300 };

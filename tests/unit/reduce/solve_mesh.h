@@ -9,7 +9,6 @@
 
 #include "check.h"
 #include "reduce/modes.h"
-#include "reduce/rigid_modes.h"
 #include "shapes/solid_shapes.h"
 
 struct solved {

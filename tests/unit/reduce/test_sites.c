@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/sites.c and what it is made of (site_choice.c, site_field.c,
- * sites_spread.c, sites_check.c): the flexibility that faces interpolate against that solved for in
- * the same place. */
+/* Mirrors service/reduce/sites.c and site_field.c: the flexibility that faces interpolate against
+ * the one solved for in the same place. */
+#include "reduce/site_field.h"
 #include "reduce/sites.h"
-#include "reduce/sites_check.h"
 #include "unit/mesh/blocks.h"
 #include "unit/reduce/flexed.h"
 #include "unit/reduce/solve_mesh.h"
@@ -254,7 +253,7 @@ static void what_cannot_be_is_taken_back(void **state)
                 scene.body.faces[f].flexibility[n] = f == at.face ? said[i] : 0.0;
         assert_true(site_field_make(&field, rule, flexibility_edges(scene.flexed.flexibility), 1,
                                     &at, &solved[i], 8e-3));
-        assert_int_equal(sites_check(&field, rule, &scene.body), taken_back[i]);
+        assert_int_equal(site_field_check(&field, rule, &scene.body), taken_back[i]);
         assert_int_equal(isnan(scene.body.faces[at.face].flexibility[0]), taken_back[i] > 0);
         site_field_free(&field);
     }
