@@ -3,7 +3,183 @@
 
 #include "reduce_mpi/spread.h"
 
+#include <limits.h>
+#include <mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* ---- a process' share of the elements ---- */
+
+/* What one message may hold, bytes: its length is an int. */
+enum { MESSAGE = 1 << 30 };
+
+/* Ends all processes. */
+static void give_up(const char *reason)
+{
+    fprintf(stderr, "percuss-reduce-mpi: %s\n", reason);
+    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+    abort();
+}
+
+static void *take_memory(size_t bytes)
+{
+    void *memory = malloc(bytes + 1);
+    if (!memory)
+        give_up("out of memory");
+    return memory;
+}
+
+/* The first process' bytes to all. */
+static void broadcast_bytes(void *bytes, size_t count)
+{
+    for (size_t sent = 0; sent < count; sent += MESSAGE) {
+        size_t part = count - sent < MESSAGE ? count - sent : MESSAGE;
+        MPI_Bcast((char *)bytes + sent, (int)part, MPI_BYTE, 0, MPI_COMM_WORLD);
+    }
+}
+
+/* The first process' array, or a copy elsewhere. */
+static void *receive_array(const void *array, size_t bytes, int rank)
+{
+    void *copy = rank == 0 ? (void *)(uintptr_t)array : take_memory(bytes);
+    broadcast_bytes(copy, bytes);
+    return copy;
+}
+
+/* What of a mesh makes its matrices. The first process' own mesh keeps its arrays. */
+static void receive_mesh(const struct solid_mesh *own, int rank, struct solid_mesh *mesh)
+{
+    if (rank == 0)
+        *mesh = *own;
+    else
+        memset(mesh, 0, sizeof *mesh);
+    size_t counts[3] = {mesh->node_count, mesh->element_count, mesh->part_count};
+    broadcast_bytes(counts, sizeof counts);
+    mesh->node_count = counts[0];
+    mesh->element_count = counts[1];
+    mesh->part_count = counts[2];
+    mesh->points = receive_array(mesh->points, counts[0] * sizeof *mesh->points, rank);
+    mesh->types = receive_array(mesh->types, counts[1] * sizeof *mesh->types, rank);
+    mesh->first = receive_array(mesh->first, (counts[1] + 1) * sizeof *mesh->first, rank);
+    mesh->nodes =
+        receive_array(mesh->nodes, mesh->first[mesh->element_count] * sizeof *mesh->nodes, rank);
+    mesh->parts = receive_array(mesh->parts, counts[1] * sizeof *mesh->parts, rank);
+    mesh->part = receive_array(mesh->part, counts[2] * sizeof *mesh->part, rank);
+}
+
+/* Elements `from` ... `to` with the nodes that they have. */
+static void cut_piece(const struct solid_mesh *mesh, size_t from, size_t to, struct share *share,
+                      struct solid_mesh *piece)
+{
+    size_t start = mesh->first[from], total = mesh->first[to] - start;
+    size_t *number = take_memory(mesh->node_count * sizeof *number);
+    *piece = (struct solid_mesh){.element_count = to - from,
+                                 .part_count = mesh->part_count,
+                                 .part = mesh->part,
+                                 .types = mesh->types + from,
+                                 .parts = mesh->parts + from,
+                                 .first = take_memory((to - from + 1) * sizeof *piece->first),
+                                 .nodes = take_memory(total * sizeof *piece->nodes)};
+    for (size_t e = 0; e <= piece->element_count; e++)
+        piece->first[e] = mesh->first[from + e] - start;
+
+    /* nodes in the order of the whole, so that rows above the diagonal stay so */
+    memset(number, 0, mesh->node_count * sizeof *number);
+    for (size_t i = 0; i < total; i++)
+        number[mesh->nodes[start + i]] = 1;
+    for (size_t i = 0; i < mesh->node_count; i++)
+        if (number[i])
+            number[i] = ++piece->node_count;
+    piece->points = take_memory(piece->node_count * sizeof *piece->points);
+    share->nodes = take_memory(piece->node_count * sizeof *share->nodes);
+    for (size_t i = 0; i < mesh->node_count; i++) {
+        if (!number[i])
+            continue;
+        share->nodes[number[i] - 1] = i;
+        memcpy(piece->points[number[i] - 1], mesh->points[i], sizeof *piece->points);
+    }
+    for (size_t i = 0; i < total; i++)
+        piece->nodes[i] = number[mesh->nodes[start + i]] - 1;
+    free(number);
+}
+
+/* A share of the mesh's elements, which follow one another in the file: most are neighbours. */
+static void take_elements(const struct solid_mesh *own, int rank, int size, struct share *share)
+{
+    size_t part = (size_t)rank, parts = (size_t)size;
+    struct solid_mesh mesh, piece;
+    struct fault fault;
+    receive_mesh(own, rank, &mesh);
+    cut_piece(&mesh, mesh.element_count * part / parts, mesh.element_count * (part + 1) / parts,
+              share, &piece);
+    if (matrices_make(&piece, &share->matrices, &fault))
+        give_up(fault.text);
+    share->matrices.mesh = NULL;
+    free(piece.first);
+    free(piece.nodes);
+    free(piece.points);
+    if (rank != 0)
+        solid_mesh_free(&mesh);
+}
+
+/* Matrices that were read: the first process has them all. */
+static void take_matrices(const struct matrices *whole, struct share *share)
+{
+    size_t count = whole ? share->node_count : 0;
+    share->borrowed = true;
+    share->nodes = take_memory(count * sizeof *share->nodes);
+    for (size_t i = 0; i < count; i++)
+        share->nodes[i] = i;
+    if (whole)
+        share->matrices = *whole;
+    else
+        share->matrices = (struct matrices){.stiffness = {.start = take_memory(sizeof(size_t))},
+                                            .mass = {.start = take_memory(sizeof(size_t))}};
+    if (!whole)
+        share->matrices.stiffness.start[0] = share->matrices.mass.start[0] = 0;
+}
+
+/* By all processes together: `whole` is the first one's, borrowed, NULL elsewhere. A process
+ * without memory ends them all. */
+static void share_make(const struct matrices *whole, struct share *share)
+{
+    int rank, size;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    size_t about[3] = {0};
+    if (whole) {
+        about[0] = whole->stiffness.n / 3;
+        about[1] = whole->held != NULL;
+        about[2] = whole->mesh != NULL;
+    }
+    broadcast_bytes(about, sizeof about);
+    *share = (struct share){.node_count = about[0]};
+
+    /* supports */
+    if (about[1]) {
+        size_t bytes = 3 * share->node_count * sizeof *share->held;
+        share->held = take_memory(bytes);
+        if (whole)
+            memcpy(share->held, whole->held, bytes);
+        broadcast_bytes(share->held, bytes);
+    }
+    if (about[2])
+        take_elements(whole ? whole->mesh : NULL, rank, size, share);
+    else
+        take_matrices(whole, share);
+}
+
+static void share_free(struct share *share)
+{
+    free(share->held);
+    free(share->nodes);
+    if (share->borrowed && share->matrices.stiffness.n > 0)
+        return;
+    matrices_free(&share->matrices);
+}
+
+/* ---- matrices and factor of all processes ---- */
 
 /* What MUMPS calls its controls, counted from one as in its manual. */
 enum { ORDERING = 7, PLAIN_ROOT = 13, RELAXATION = 14, SCOTCH = 3 };
@@ -21,7 +197,7 @@ static PetscInt whole_number(const struct share *share, size_t unknown)
     return (PetscInt)(3 * share->nodes[unknown / 3] + unknown % 3);
 }
 
-static size_t entries(const struct sparse *matrix)
+static size_t entry_count(const struct sparse *matrix)
 {
     return matrix->start[matrix->n];
 }
@@ -46,7 +222,7 @@ static void list_places(struct places *places, const struct sparse *matrix, bool
 
 static void list_values(const struct sparse *matrix, double factor, double *values)
 {
-    for (size_t p = 0; p < entries(matrix); p++)
+    for (size_t p = 0; p < entry_count(matrix); p++)
         values[2 * p] = values[2 * p + 1] = factor * matrix->value[p];
 }
 
@@ -55,7 +231,7 @@ static Mat lay_out(const struct spread *spread, const struct sparse *stiffness)
 {
     const struct share *share = &spread->share;
     const struct sparse *mass = &share->matrices.mass;
-    size_t most = 2 * ((stiffness ? entries(stiffness) : 0) + entries(mass));
+    size_t most = 2 * ((stiffness ? entry_count(stiffness) : 0) + entry_count(mass));
     struct places places = {.share = share};
     PetscInt n = (PetscInt)(3 * share->node_count), own = spread->rows.counts[spread->rows.rank];
     Mat matrix;
@@ -116,7 +292,7 @@ static void assemble(struct spread *spread, double shift)
 {
     const struct matrices *matrices = &spread->share.matrices;
     list_values(&matrices->stiffness, 1.0, spread->values);
-    list_values(&matrices->mass, shift, spread->values + 2 * entries(&matrices->stiffness));
+    list_values(&matrices->mass, shift, spread->values + 2 * entry_count(&matrices->stiffness));
     SPREAD_CALL(MatSetValuesCOO(spread->shifted, spread->values, INSERT_VALUES));
 }
 
@@ -128,7 +304,7 @@ void spread_make(struct spread *spread, const struct matrices *whole, bool posit
     const struct sparse *k = &spread->share.matrices.stiffness, *m = &spread->share.matrices.mass;
     share_rows(&spread->rows, spread->share.node_count);
     spread->neighbours = count_neighbours();
-    SPREAD_CALL(PetscMalloc1(2 * (entries(k) + entries(m)), &spread->values));
+    SPREAD_CALL(PetscMalloc1(2 * (entry_count(k) + entry_count(m)), &spread->values));
     spread->mass = lay_out(spread, NULL);
     list_values(m, 1.0, spread->values);
     SPREAD_CALL(MatSetValuesCOO(spread->mass, spread->values, INSERT_VALUES));

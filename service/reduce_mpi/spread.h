@@ -9,7 +9,7 @@
 
 #include <petscmat.h>
 
-#include "reduce_mpi/share.h"
+#include "mesh/matrices.h"
 
 /* A call of PETSc's or SLEPc's. */
 #define SPREAD_CALL(call) PetscCallAbort(PETSC_COMM_WORLD, call)
@@ -18,6 +18,15 @@
 struct spread_rows {
     int rank, size;
     int *counts, *starts; /* [size] */
+};
+
+/* Every process' share of a mesh's elements, which it assembles. Owns its arrays. */
+struct share {
+    size_t node_count;        /* of the whole mesh */
+    bool *held;               /* [3 node_count]; NULL: none */
+    size_t *nodes;            /* the whole mesh's number of each node of the share */
+    struct matrices matrices; /* of the share's elements, nothing held ... */
+    bool borrowed;            /* ... or all there are, of no mesh, at the first process */
 };
 
 struct spread {
