@@ -237,8 +237,8 @@ static enum percuss_status try_request(struct ensemble *ensemble, const struct w
     struct solve_result *result = calloc(1, sizeof *result);
     enum percuss_status status = PERCUSS_INTERNAL;
     if (workspace && result) {
-        const struct solve_means means = {spec->catalogue, spec->tables,
-                                          watch ? *watch : (struct watch){0}};
+        const struct solve_context means = {spec->catalogue, spec->tables,
+                                            watch ? *watch : (struct watch){0}};
         status = solve(workspace, &means, spec->request, result);
         *fault = result->fault;
         ensemble->stated_model = result->contact_model;

@@ -341,7 +341,7 @@ struct ensemble_worker {
     const struct ensemble *ensemble;
     struct repeat *repeat;
     struct variation variation;
-    struct solve_means means; /* with the variation's bodies for a catalogue */
+    struct solve_context means; /* with the variation's bodies for a catalogue */
 };
 
 enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
@@ -357,8 +357,8 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     (*worker)->repeat = status ? NULL : repeat_create();
     if (!status && !(*worker)->repeat)
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    (*worker)->means = (struct solve_means){&(*worker)->variation.set, ensemble->spec.tables,
-                                            watch ? *watch : (struct watch){0}};
+    (*worker)->means = (struct solve_context){&(*worker)->variation.set, ensemble->spec.tables,
+                                              watch ? *watch : (struct watch){0}};
     /* nothing on failure */
     if (status) {
         ensemble_worker_free(*worker);

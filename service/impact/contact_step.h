@@ -71,7 +71,7 @@ double contact_step_loss(const struct scene *scene, const struct motion *motion,
                          double (*const force)[NODES]);
 
 /* Whether the series compliance of a contact bears a law of that stiffness, N/m: a negative one
- * (see solve/compliance.h) takes |C| dF/dd < 0.5, else small differences of the approach are large
+ * (see solve/contact_model.h) takes |C| dF/dd < 0.5, else small differences of the approach are large
  * ones of the indentation, and from 1 on there are several. */
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness);
 

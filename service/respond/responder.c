@@ -207,7 +207,7 @@ static struct answer *compute(struct responder *responder, const struct question
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
     /* the solve, as long as it does */
-    const struct solve_means means = {
+    const struct solve_context means = {
         question->snapshot->set,
         table_maker_begin(&responder->maker, question->snapshot->tables, question->request,
                           envelope->client, question->arrival),

@@ -7,7 +7,7 @@
 #define PERCUSS_SOLVE_ASKEW_H
 
 #include "solve/problem.h"
-#include "solve/warnings.h"
+#include "solve/result.h"
 
 /* By how much the restitution of a contact that lasts `duration` (s) is lower for the bending of
  * its rods; 0: neither body is a rod that is hit across its axis. */

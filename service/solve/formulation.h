@@ -6,18 +6,26 @@
 #define PERCUSS_SOLVE_FORMULATION_H
 
 #include "impact/impact.h"
-#include "solve/means.h"
 #include "solve/problem.h"
 
 /* Places the bodies of an empty problem, and chooses its contacts' laws and what is in series with
  * them. PERCUSS_OK, PERCUSS_TIMEOUT where nobody waits any more, or the refusals of placement_find,
  * contact_model_choose and compliance_choose. */
-enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
+enum percuss_status formulate(struct problem *problem, const struct solve_context *context,
                               struct fault *fault);
 
 /* Looks at a solution of a scene: true: other laws or another compliance are in order and are now
  * the problem's. */
 bool formulation_revise(struct problem *problem, const struct scene *scene,
                         const struct impact_outcome *outcome);
+
+/* Fills all of an empty problem but the laws and the compliance. PERCUSS_OK, or the refusal with
+ * its message: UNKNOWN_BODY, BAD_REQUEST, UNSUPPORTED_GEOMETRY, NOT_APPROACHING. */
+enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
+                                   struct fault *fault);
+
+/* The part that velocities decide, where the request has other ones than when it was placed. OK,
+ * NOT_APPROACHING or BAD_REQUEST. */
+enum percuss_status placement_find_rates(struct problem *problem, struct fault *fault);
 
 #endif

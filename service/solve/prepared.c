@@ -56,6 +56,18 @@ struct held {
     struct ritz_box *box;
 };
 
+/* A subset of a group's modes as a group of its own. */
+struct prepared_part {
+    struct prepared_part *next;
+    const struct prepared_group *whole;
+    struct prepared_group group;
+};
+
+struct prepared_parts {
+    struct prepared_part *first;
+    size_t count;
+};
+
 struct prepared_cache {
     struct ritz_store *boxes; /* where those held come from; NULL: none was asked for */
     struct held *held;
@@ -66,6 +78,114 @@ struct prepared_cache {
     size_t varied;                   /* entries of varied bodies */
     struct prepared_parts parts;
 };
+
+/* At one load, of the modes up to some. */
+struct participation_row {
+    struct family_load load; /* the key, to the last byte */
+    size_t known;            /* modes; 0: there is no such load yet */
+    unsigned long used;      /* when it was asked of last */
+    double *shape;           /* [modes] */
+};
+
+struct participations {
+    unsigned long asked;
+    struct participation_row rows[PARTICIPATION_LOADS];
+    size_t *index; /* [modes]: 0, 1, ... */
+    double shapes[];
+};
+
+struct participations *participations_create(size_t modes)
+{
+    struct participations *cached =
+        calloc(1, sizeof *cached + PARTICIPATION_LOADS * modes * sizeof *cached->shapes);
+    if (!cached)
+        return NULL;
+    cached->index = malloc((modes + 1) * sizeof *cached->index);
+    if (!cached->index) {
+        free(cached);
+        return NULL;
+    }
+    for (size_t k = 0; k < modes; k++)
+        cached->index[k] = k;
+    for (size_t i = 0; i < PARTICIPATION_LOADS; i++)
+        cached->rows[i].shape = cached->shapes + i * modes;
+    return cached;
+}
+
+void participations_free(struct participations *cached)
+{
+    if (!cached)
+        return;
+    free(cached->index);
+    free(cached);
+}
+
+/* NULL: there is none of that load. */
+static struct participation_row *find_participations(struct participations *cached,
+                                                     const struct family_load *load)
+{
+    for (struct participation_row *row = cached->rows; row < cached->rows + PARTICIPATION_LOADS;
+         row++)
+        if (row->known > 0 && memcmp(&row->load, load, sizeof *load) == 0)
+            return row;
+    return NULL;
+}
+
+/* For that load, in place of the one that was not asked of for longest. */
+static struct participation_row *take_participations(struct participations *cached,
+                                                     const struct family_load *load)
+{
+    struct participation_row *oldest = cached->rows;
+    for (struct participation_row *row = cached->rows; row < cached->rows + PARTICIPATION_LOADS;
+         row++)
+        if (row->used < oldest->used)
+            oldest = row;
+    memcpy(&oldest->load, load, sizeof *load);
+    oldest->known = 0;
+    return oldest;
+}
+
+void participations_get(struct participations *cached, const struct body *body,
+                        const struct modal_family *modes, const size_t *which, size_t count,
+                        const struct family_load *load, double *shape)
+{
+    if (count == 0)
+        return;
+    struct participation_row *row = find_participations(cached, load);
+    size_t wanted = which[count - 1] + 1;
+    /* nobody pays for modes before those that are asked for */
+    if (which[0] > (row ? row->known : 0)) {
+        modal_participations(body, modes, which, count, load, shape);
+        return;
+    }
+    if (!row)
+        row = take_participations(cached, load);
+    if (wanted > row->known) {
+        modal_participations(body, modes, cached->index + row->known, wanted - row->known, load,
+                             row->shape + row->known);
+        row->known = wanted;
+    }
+    row->used = ++cached->asked;
+    for (size_t i = 0; i < count; i++)
+        shape[i] = row->shape[which[i]];
+}
+
+static void part_free(struct prepared_part *part)
+{
+    oscillators_free(part->group.set);
+    free(part->group.mode);
+    free(part);
+}
+
+static void parts_clear(struct prepared_parts *parts)
+{
+    while (parts->first) {
+        struct prepared_part *next = parts->first->next;
+        part_free(parts->first);
+        parts->first = next;
+    }
+    parts->count = 0;
+}
 
 static void family_free(struct prepared_family *family)
 {
@@ -164,7 +284,7 @@ static void entry_clear(struct entry *entry)
 /* Forgets all bodies, or only the varied ones. */
 static void forget(struct prepared_cache *cache, bool only_varied)
 {
-    prepared_parts_clear(&cache->parts);
+    parts_clear(&cache->parts);
     for (size_t b = 0; b < BUCKETS; b++) {
         for (struct entry **link = &cache->buckets[b]; *link;) {
             struct entry *entry = *link;
@@ -183,7 +303,7 @@ static void forget(struct prepared_cache *cache, bool only_varied)
 static void free_retired(struct prepared_cache *cache)
 {
     if (cache->retired)
-        prepared_parts_clear(&cache->parts);
+        parts_clear(&cache->parts);
     while (cache->retired) {
         struct prepared_family *next = cache->retired->next_retired;
         family_free(cache->retired);
@@ -217,7 +337,7 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision)
     free_retired(cache);
     release_boxes(cache);
     if (cache->parts.count > MOST_PARTS)
-        prepared_parts_clear(&cache->parts);
+        parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
         forget(cache, true);
     if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
@@ -284,7 +404,26 @@ const struct prepared_group *prepared_part_get(struct prepared_cache *cache,
                                                const struct prepared_group *whole,
                                                const size_t *which, size_t count)
 {
-    return prepared_parts_get(&cache->parts, whole, which, count);
+    for (struct prepared_part *known = cache->parts.first; known; known = known->next)
+        if (known->whole == whole && known->group.set->count == count &&
+            memcmp(known->group.set->which, which, count * sizeof *which) == 0)
+            return &known->group;
+    struct prepared_part *made = calloc(1, sizeof *made);
+    if (!made)
+        return NULL;
+    made->whole = whole;
+    made->group.set = oscillators_part(whole->set, which, count);
+    made->group.mode = calloc(count + 1, sizeof *made->group.mode);
+    if (!made->group.set || !made->group.mode) {
+        part_free(made);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++)
+        made->group.mode[i] = whole->mode[which[i]];
+    made->next = cache->parts.first;
+    cache->parts.first = made;
+    cache->parts.count++;
+    return &made->group;
 }
 
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
@@ -420,7 +559,7 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)
 {
-    prepared_parts_clear(&cache->parts);
+    parts_clear(&cache->parts);
     for (struct entry **link = find_bucket(cache, id); *link;) {
         struct entry *entry = *link;
         if (strcmp(entry->body.id, id) != 0) {

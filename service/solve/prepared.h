@@ -8,12 +8,17 @@
 #define PERCUSS_SOLVE_PREPARED_H
 
 #include "contact/hertz.h"
+#include "impact/step_table.h"
 #include "model/modal_basis.h"
-#include "solve/participation.h"
-#include "solve/prepared_part.h"
 
 struct ritz_shape;
 struct ritz_store;
+
+/* Modes of a family that have one parity, or any (longitudinal ones of unlike supports). */
+struct prepared_group {
+    struct oscillators *set;
+    size_t *mode; /* [set->count]: index within the family */
+};
 
 struct prepared_family {
     struct modal_family *modes;
@@ -22,6 +27,19 @@ struct prepared_family {
     struct participations *participations; /* at the loads asked of last */
     struct prepared_family *next_retired;
 };
+
+/* Participations of a family's modes, cached for the loads that were asked for last: a solve asks
+ * several times, an ensemble asks for one site thousands of times. A hit and a miss give the same
+ * bits, since each mode is computed by itself. */
+struct participations;
+enum { PARTICIPATION_LOADS = 8 };                           /* cached per family */
+struct participations *participations_create(size_t modes); /* NULL: out of memory */
+void participations_free(struct participations *cached);    /* NULL is allowed */
+
+/* As modal_participations, for modes below the number at its creation; `which` ascends. */
+void participations_get(struct participations *cached, const struct body *body,
+                        const struct modal_family *modes, const size_t *which, size_t count,
+                        const struct family_load *load, double *shape);
 
 struct prepared_cache;
 

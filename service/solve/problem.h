@@ -37,7 +37,7 @@ struct contact_model {
     const struct contact_table_remedy *remedy; /* of tables that are missing; NULL: none is known */
 };
 
-/* What is in series with them, see compliance.h. */
+/* What is in series with them, see contact_model.h. */
 struct compliance {
     enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
     double *series;               /* [contact], m/N; 0: half-space; NULL: the same, none chosen */

@@ -8,7 +8,6 @@
 
 #include "solve/contact_model.h"
 #include "solve/formulation.h"
-#include "solve/placement.h"
 #include "solve/radiation.h"
 #include "solve/validity.h"
 
@@ -99,17 +98,17 @@ static bool lasts(const struct problem *problem)
     return lasts;
 }
 
-static enum percuss_status begin(struct repeat *repeat, const struct solve_means *means,
+static enum percuss_status begin(struct repeat *repeat, const struct solve_context *context,
                                  const struct solve_request *request, struct fault *fault)
 {
     repeat->problem = NULL;
     repeat->solution.scene = NULL;
-    prepared_cache_use(repeat->cache, means->catalogue->revision);
+    prepared_cache_use(repeat->cache, context->catalogue->revision);
     arena_reset(&repeat->problem_memory);
     struct problem *problem = problem_create(request, repeat->cache, &repeat->problem_memory);
     if (!problem)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = formulate(problem, means, fault);
+    enum percuss_status status = formulate(problem, context, fault);
     if (status)
         return status;
     repeat->problem = problem;
@@ -126,17 +125,17 @@ static enum percuss_status go_on(struct repeat *repeat, const struct solve_reque
 }
 
 /* By a model, or with NULL by a search. */
-static enum percuss_status find(struct repeat *repeat, const struct solve_means *means,
+static enum percuss_status find(struct repeat *repeat, const struct solve_context *context,
                                 const struct solve_request *request,
                                 const struct solution_model *model, bool same_scene,
                                 struct fault *fault)
 {
     /* the problem kept, or a new one */
-    struct pace pace = {.watch = &means->watch};
+    struct pace pace = {.watch = &context->watch};
     bool kept = same_scene && repeat->problem && repeat->lasting;
     arena_reset(&repeat->run_memory);
     enum percuss_status status =
-        kept ? go_on(repeat, request, fault) : begin(repeat, means, request, fault);
+        kept ? go_on(repeat, request, fault) : begin(repeat, context, request, fault);
     if (!status)
         status = solution_find(&repeat->solution, repeat->problem, model, &repeat->run_memory,
                                &pace, fault);
@@ -150,14 +149,14 @@ static enum percuss_status find(struct repeat *repeat, const struct solve_means 
     return status;
 }
 
-enum percuss_status repeat_search(struct repeat *repeat, const struct solve_means *means,
+enum percuss_status repeat_search(struct repeat *repeat, const struct solve_context *context,
                                   const struct solve_request *request, size_t contact,
                                   struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault)
 {
     const struct solution *solution = &repeat->solution;
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    outcome->status = find(repeat, means, request, NULL, false, fault);
+    outcome->status = find(repeat, context, request, NULL, false, fault);
     if (!outcome->status) {
         judge(repeat, contact, outcome, fault);
         outcome->error = solution->steps.restitution + solution->modes.restitution;
@@ -168,13 +167,13 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct solve_mean
     return outcome->status;
 }
 
-enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_means *means,
+enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_context *context,
                                  const struct solve_request *request, size_t contact,
                                  const struct solution_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    outcome->status = find(repeat, means, request, model, same_scene, fault);
+    outcome->status = find(repeat, context, request, model, same_scene, fault);
     return outcome->status ? outcome->status : judge(repeat, contact, outcome, fault);
 }
 

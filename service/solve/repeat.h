@@ -9,10 +9,9 @@
 
 #include <stdint.h>
 
-#include "solve/means.h"
 #include "solve/request.h"
+#include "solve/result.h"
 #include "solve/solution.h"
-#include "solve/warnings.h"
 
 /* One contact of one impact. */
 struct repeat_outcome {
@@ -37,7 +36,7 @@ void repeat_forget(struct repeat *repeat, const char *id);
 
 /* Solves by the accuracy search; fills `model` (NULL: not wanted) and what `contact` did. Returns
  * outcome->status; refusals carry a message. The request must have passed solve(). */
-enum percuss_status repeat_search(struct repeat *repeat, const struct solve_means *means,
+enum percuss_status repeat_search(struct repeat *repeat, const struct solve_context *context,
                                   const struct solve_request *request, size_t contact,
                                   struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault);
@@ -45,7 +44,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct solve_mean
 /* Solves once with that model. `same_scene`: the request differs from this worker's last one in
  * velocities only and the model not at all, so that the scene is kept. Bodies are prepared once a
  * revision of the catalogue, but for those forgotten. */
-enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_means *means,
+enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_context *context,
                                  const struct solve_request *request, size_t contact,
                                  const struct solution_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault);

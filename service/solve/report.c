@@ -8,15 +8,24 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "impact/oscillator.h"
+#include "impact/trace.h"
 #include "model/bar.h"
+#include "model/damping.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/contact_model.h"
 #include "solve/error/law.h"
 #include "solve/error/state.h"
 #include "solve/radiation.h"
-#include "solve/state_out.h"
 #include "solve/validity.h"
+
+/* Share of the window by which the last instant kept may lie before its end. */
+static const double TRACE_LAST_INSTANT = 0.01;
+/* A larger difference of restitutions is that of two methods. */
+static const double TRACE_SAME_METHOD = 1e-9;
+/* Accuracy of steps that stand for a closed form, to as many digits. */
+static const double TRACE_CLOSED_FORM = 1e-9;
 
 void report_warn(struct solve_result *result, const char *format, ...)
 {
@@ -90,6 +99,145 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
                     result->bodies[b].angular_velocity);
     }
     result->velocities_known = true;
+}
+
+/* How many modes of a family the new state holds. */
+static size_t state_family_size(const struct assembly *assembly, const struct body_state *before,
+                                size_t body, size_t family)
+{
+    size_t size = before ? before->count[family] : 0;
+    for (size_t g = 0; g < assembly->scene.groups; g++) {
+        const struct scene_group *group = &assembly->groups[g];
+        if (group->body != body || assembly->families[g] != family)
+            continue;
+        size_t last = assembly->sources[g]->mode[group->count - 1] + 1;
+        size = last > size ? last : size;
+    }
+    return size;
+}
+
+/* A solution's free motions, s: from the state to the stated instant, back to a touch before it (0:
+ * it lies after it), and on from there. */
+struct free_times {
+    double elapsed, back, on;
+};
+
+/* As those move that take part: nothing is damped on the way back, see motion_rewind. */
+static void state_move_one(double omega, double damping, const struct free_times *times,
+                           double pair[2])
+{
+    if (times->back == 0.0) {
+        oscillator_advance(omega, damping, times->elapsed + times->on, &pair[0], &pair[1]);
+        return;
+    }
+    oscillator_advance(omega, damping, times->elapsed, &pair[0], &pair[1]);
+    oscillator_advance(omega, 0.0, times->back, &pair[0], &pair[1]);
+    oscillator_advance(omega, damping, times->on, &pair[0], &pair[1]);
+}
+
+/* Frequencies of modes that took no part are asked of the body anew. */
+static void state_move_freely(const struct body *body, size_t family,
+                              const struct body_state *before, const struct free_times *times,
+                              struct arena *arena, double *pairs)
+{
+    size_t count = before->count[family];
+    struct modal_family *modes = modal_family_create(body, family, count);
+    arena->lacks = arena->lacks || !modes;
+    memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
+    for (size_t k = 0; modes && k < count && k < modes->count; k++)
+        state_move_one(modes->omega[k], damping_of(body, k), times, pairs + 2 * k);
+    modal_family_free(modes);
+}
+
+static void state_fill_modes(const struct assembly *assembly, const struct impact_outcome *outcome,
+                             const struct problem *problem, double elapsed,
+                             struct body_state *state, size_t index)
+{
+    const struct body *body = problem->bodies[index];
+    const struct body_state *before = problem->states[index];
+    double back = fmin(outcome->time_shift, 0.0);
+    const struct free_times times = {elapsed, back, outcome->window - back};
+    for (size_t f = 0; f < body->kind->family_count; f++) {
+        double *family = (double *)body_state_family(state, f);
+        /* modes that took no part vibrate on freely */
+        if (before && before->count[f])
+            state_move_freely(body, f, before, &times, problem->arena, family);
+        /* the others are as the impact left them */
+        for (size_t g = 0; g < assembly->scene.groups; g++) {
+            const struct scene_group *group = &assembly->groups[g];
+            if (group->body != index || assembly->families[g] != f)
+                continue;
+            for (size_t k = 0; k < group->count; k++) {
+                size_t mode = assembly->sources[g]->mode[k];
+                family[2 * mode] = outcome->motion.q[g][k];
+                family[2 * mode + 1] = outcome->motion.v[g][k];
+            }
+        }
+    }
+}
+
+/* A place for one more dent: the next one, or that of the shallowest. */
+static struct dent *new_dent(struct dent *dents, size_t *count)
+{
+    if (*count < BODY_STATE_MAX_DENTS)
+        return &dents[(*count)++];
+    struct dent *shallowest = dents;
+    for (size_t i = 1; i < *count; i++)
+        if (dents[i].history.dent < shallowest->history.dent)
+            shallowest = &dents[i];
+    return shallowest;
+}
+
+/* The dents of a body after the impact; their number. */
+static size_t dents_after(const struct impact_outcome *outcome, const struct problem *problem,
+                          const struct body_state *before, size_t body, struct dent *dents)
+{
+    size_t count = before ? before->dents : 0;
+    if (count)
+        memcpy(dents, body_state_dents(before), count * sizeof *dents);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        const struct contact_choice *choice = &problem->contact_model.choices[c];
+        if (choice->side < 0 || problem->sides[c][choice->side].body != body ||
+            !contact_model_yielded(problem, outcome, c))
+            continue;
+        struct dent *dent = choice->dented ? &dents[choice->dent] : new_dent(dents, &count);
+        dent->history = outcome->laws[c].history;
+        dent->size = dent->history.contact_radius;
+        if (!choice->dented)
+            memcpy(dent->point, problem->sides[c][choice->side].site.point, sizeof dent->point);
+    }
+    return count;
+}
+
+const struct body_state *state_after(const struct assembly *assembly,
+                                     const struct impact_outcome *outcome,
+                                     const struct problem *problem, size_t body)
+{
+    bool flexible = body_is_flexible(problem->bodies[body]);
+    const struct solve_body *stated = &problem->request->bodies[body];
+    /* how much there is to keep */
+    struct dent dents[BODY_STATE_MAX_DENTS];
+    struct body_state sizes = {.dents = 0};
+    if (problem->request->options.dents == PERCUSS_DENTS_KEEP)
+        sizes.dents = dents_after(outcome, problem, stated->state, body, dents);
+    if (!flexible && !sizes.dents)
+        return NULL;
+    for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
+        sizes.count[f] = state_family_size(assembly, problem->states[body], body, f);
+    /* one block of it */
+    body_state_make_room(&problem->axes[body], &sizes);
+    struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
+    if (!state)
+        return NULL;
+    *state = sizes;
+    /* filled */
+    if (flexible) {
+        state_fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
+        body_state_turn_back(&problem->axes[body], state);
+    }
+    if (sizes.dents)
+        memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);
+    return state;
 }
 
 static void fill_bodies(const struct problem *problem, const struct solution *solution,
@@ -409,4 +557,154 @@ void report_fill(const struct problem *problem, const struct solution *solution,
     if (!is_finite(result))
         result->status = fault_set(&result->fault, PERCUSS_INTERNAL,
                                    "no finite answer: the numbers of the request are out of scale");
+}
+
+/* Compliance between two contacts of one body that no mode of the scene holds. */
+static double residual_of_side(const struct problem *problem, const struct assembly *assembly,
+                               const struct contact_side *i, const struct contact_side *j,
+                               size_t contact_i, size_t contact_j)
+{
+    double sum = 0.0;
+    const struct body *body = problem->bodies[i->body];
+    for (size_t f = 0; f < body->kind->family_count; f++)
+        sum += modal_compliance(body, f, &i->load.family[f], &j->load.family[f]);
+    for (size_t g = 0; g < assembly->scene.groups; g++) {
+        const struct scene_group *group = &assembly->groups[g];
+        const double *a = group->participation[contact_i];
+        const double *b = group->participation[contact_j];
+        if (group->body != i->body)
+            continue;
+        for (size_t k = group->count; a && b && k-- > 0;)
+            sum -= a[k] * b[k] / (group->set->omega[k] * group->set->omega[k]);
+    }
+    return sum;
+}
+
+/* The part of the coupling of two contacts that goes through side `which` of the first. */
+static void share_of_side(const struct problem *problem, const struct assembly *assembly, size_t c,
+                          int which, double *w, double *residual)
+{
+    const struct contact_side *side = &problem->sides[c][which];
+    const struct body *body = problem->bodies[side->body];
+    size_t n = problem->contact_count;
+    residual[c * n + c] = problem->compliance.sides[c][which];
+    for (size_t j = 0; j < n; j++) {
+        for (int q = 0; q < 2; q++) {
+            const struct contact_side *other = &problem->sides[j][q];
+            if (other->body != side->body)
+                continue;
+            w[c * n + j] += rigid_inverse_mass(body, side->site.point, side->direction,
+                                               other->site.point, other->direction);
+            residual[c * n + j] += residual_of_side(problem, assembly, side, other, c, j);
+        }
+    }
+}
+
+static double velocity_along_normal(const struct solve_request *request, size_t contact,
+                                    size_t body)
+{
+    const struct solve_contact *at = &request->contacts[contact];
+    const struct solve_body *moving = &request->bodies[body];
+    double arm[3];
+    double turning[3];
+    sub3(at->point, moving->position, arm);
+    cross3(moving->angular_velocity, arm, turning);
+    return dot3(at->normal, moving->velocity) + dot3(at->normal, turning);
+}
+
+/* How the two bodies share each contact. With the client's own W nobody knows. */
+static bool trace_find_sides(const struct problem *problem, const struct assembly *assembly,
+                             struct trace_sides *sides)
+{
+    struct arena *arena = problem->arena;
+    size_t n = problem->contact_count;
+    *sides = (struct trace_sides){0};
+    for (int s = 0; s < 2 && !problem->from_client; s++) {
+        /* the four arrays of this side */
+        double *w = arena_take(arena, n * n, sizeof *w);
+        double *residual = arena_take(arena, n * n, sizeof *residual);
+        double *velocity = arena_take(arena, n, sizeof *velocity);
+        size_t *body = arena_take(arena, n, sizeof *body);
+        if (!w || !residual || !velocity || !body)
+            return false;
+        /* contact by contact */
+        for (size_t c = 0; c < n; c++) {
+            body[c] = problem->sides[c][s].body;
+            velocity[c] = velocity_along_normal(problem->request, c, body[c]);
+            share_of_side(problem, assembly, c, s, w, residual);
+        }
+        sides->w[s] = w;
+        sides->residual[s] = residual;
+        sides->velocity[s] = velocity;
+        sides->body[s] = body;
+    }
+    return true;
+}
+
+/* What any solution may take; one that was cut off is cut off again. */
+static double trace_work(const struct solution *solution)
+{
+    double allowed = attempt_work_allowed(PERCUSS_METHOD_MODAL);
+    double taken = impact_work(&solution->assembly->scene, &solution->outcome);
+    return solution->outcome.end_reason == PERCUSS_END_LIMIT ? fmin(taken, allowed) : allowed;
+}
+
+/* Where the effort did not do for all of it, and where the answer came from another method. */
+static void trace_warn(const struct problem *problem, const struct solution *solution,
+                       const struct impact_outcome *again, struct solve_result *result)
+{
+    const struct trace *trace = result->trace;
+    double last = trace->time[trace->count - 1];
+    /* the last instant that is kept may lie a little before the end */
+    if (last < result->window - TRACE_LAST_INSTANT * fabs(result->window)) {
+        report_warn(result,
+                    "options.trace: the histories end at %g s of %g s: the effort allowed for them "
+                    "was spent",
+                    last, result->window);
+        return;
+    }
+    /* another method, another answer */
+    double off = outcome_compare(problem, again, &solution->outcome).restitution;
+    if (off > TRACE_SAME_METHOD)
+        report_warn(result,
+                    "options.trace: the histories are the modal method's, whose restitution "
+                    "differs by %.2g from the answer",
+                    off);
+}
+
+enum percuss_status report_trace(const struct problem *problem, const struct solution *solution,
+                                 struct pace *pace, struct solve_result *result)
+{
+    struct arena *arena = problem->arena;
+    const struct scene *scene = &solution->assembly->scene;
+    struct force_log log = force_log_make(arena, scene->contacts);
+    struct impact_settings settings = {.accuracy = solution->step_accuracy,
+                                       .horizon = attempt_horizon(problem, scene),
+                                       .max_work = trace_work(solution),
+                                       .log = &log,
+                                       .pace = pace,
+                                       .care = solution->step_care};
+    /* the closed form of a rigid pair is exact */
+    if (impact_is_rigid_pair(scene))
+        settings.accuracy = fmin(settings.accuracy, TRACE_CLOSED_FORM);
+    /* the same solution once more, with a log of its forces */
+    struct impact_outcome again;
+    struct trace_sides sides;
+    struct trace *trace = arena_take(arena, 1, sizeof *trace);
+    enum percuss_status status = PERCUSS_INTERNAL;
+    if (trace && impact_create(&again, scene, arena) &&
+        trace_find_sides(problem, solution->assembly, &sides))
+        status = impact_modal(scene, &settings, arena, &again);
+    if (!status)
+        status =
+            trace_make(&(struct trace_task){scene, &log, &sides, again.time_shift, again.window,
+                                            attempt_work_allowed(PERCUSS_METHOD_MODAL), pace},
+                       arena, trace);
+    if (status) {
+        result->status = pace_fault(&result->fault, status);
+        return result->status;
+    }
+    result->trace = trace;
+    trace_warn(problem, solution, &again, result);
+    return result->status;
 }

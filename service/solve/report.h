@@ -7,7 +7,6 @@
 
 #include "solve/result.h"
 #include "solve/solution.h"
-#include "solve/warnings.h"
 
 struct start_error; /* start_error.h */
 
@@ -24,6 +23,20 @@ void report_model_error(double model, double yield, double range, struct solve_r
 /* What the bodies' new states are wrong by, from all errors of `result`. */
 void report_state_errors(const struct problem *problem, const struct solution *solution,
                          const struct start_error *start, struct solve_result *result);
+
+/* The state of a body at the end of the window: modes that took part from the outcome, the others
+ * of its initial state moved on freely; dents unless the request ignores them. NULL: a rigid body
+ * without dents, or out of memory. In the problem's arena. */
+const struct body_state *state_after(const struct assembly *assembly,
+                                     const struct impact_outcome *outcome,
+                                     const struct problem *problem, size_t body);
+
+/* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
+ * result->trace. That may take as much work as an answer, and the histories as much again: where it
+ * is spent they end, with a warning. Warns where the answer came from another method and that
+ * solution differs. Returns result->status, or INTERNAL or TIMEOUT with the message. */
+enum percuss_status report_trace(const struct problem *problem, const struct solution *solution,
+                                 struct pace *pace, struct solve_result *result);
 
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.
  */

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/watch.h"
 #include "contact/body_state.h"
 #include "model/body.h"
 #include "percuss/fields.h"
@@ -59,6 +60,16 @@ struct solve_request {
 static const double SOLVE_HORIZON = 0.020;
 /* Tolerance of who states none: what a measured restitution scatters by. */
 static const double SOLVE_TOLERANCE = 1e-3;
+
+struct contact_table_source; /* contact/law_table.h */
+
+/* Other inputs of a solve than the request; all borrowed. */
+struct solve_context {
+    const struct body_set *catalogue;
+    const struct contact_table_source *tables; /* of contact laws; NULL: none */
+    struct watch watch; /* polled about once a millisecond; where it says stop, the solve ends with
+                           TIMEOUT */
+};
 
 /* Velocity of a's point of a contact against b's, world, m/s. */
 void solve_contact_velocity(const struct solve_request *request, size_t contact,

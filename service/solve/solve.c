@@ -7,14 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/complete.h"
-#include "solve/concurrent.h"
 #include "solve/error/impulses.h"
 #include "solve/error/models.h"
 #include "solve/error/state.h"
+#include "solve/finite_element.h"
 #include "solve/formulation.h"
 #include "solve/report.h"
-#include "solve/tracing.h"
 
 struct solve_workspace {
     struct prepared_cache *cache;
@@ -104,7 +102,7 @@ static enum percuss_status check_finite(const struct solve_request *request, str
 }
 
 static enum percuss_status answer(struct solve_workspace *workspace,
-                                  const struct solve_means *means,
+                                  const struct solve_context *context,
                                   const struct solve_request *request, struct solve_result *result)
 {
     /* memory of the request */
@@ -113,8 +111,8 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!problem || !solution)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     /* the request as a problem */
-    struct pace pace = {.watch = &means->watch};
-    enum percuss_status status = formulate(problem, means, &result->fault);
+    struct pace pace = {.watch = &context->watch};
+    enum percuss_status status = formulate(problem, context, &result->fault);
     /* complete finite elements answer by themselves */
     enum contact_method method = contact_law_asked(request->options.contact_model)->method;
     if (!status && method == CONTACT_COMPLETE)
@@ -149,21 +147,21 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
-        status = tracing_make(problem, solution, &pace, result);
+        status = report_trace(problem, solution, &pace, result);
     return status;
 }
 
-enum percuss_status solve(struct solve_workspace *workspace, const struct solve_means *means,
+enum percuss_status solve(struct solve_workspace *workspace, const struct solve_context *context,
                           const struct solve_request *request, struct solve_result *result)
 {
     clear(result);
     arena_reset(&workspace->arena);
-    prepared_cache_use(workspace->cache, means->catalogue->revision);
+    prepared_cache_use(workspace->cache, context->catalogue->revision);
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);
     if (!result->status)
-        result->status = answer(workspace, means, request, result);
+        result->status = answer(workspace, context, request, result);
     /* an answer that lacks something for want of memory is none, whatever it says */
     if (workspace->arena.lacks)
         result->status = fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");

@@ -1,12 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The library's one entrance: (means, request) -> result. No files, no clock, no globals; same
+/* The library's one entrance: (context, request) -> result. No files, no clock, no globals; same
  * input, same bits. Units SI; conventions as in solve/request.h. */
 #ifndef PERCUSS_SOLVE_SOLVE_H
 #define PERCUSS_SOLVE_SOLVE_H
 
-#include "solve/means.h"
 #include "solve/request.h"
 #include "solve/result.h"
 
@@ -19,7 +18,7 @@ void solve_workspace_free(struct solve_workspace *workspace);
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. Prepared bodies are cached by the catalogue's revision. An
  * answer does not depend on the watch. */
-enum percuss_status solve(struct solve_workspace *workspace, const struct solve_means *means,
+enum percuss_status solve(struct solve_workspace *workspace, const struct solve_context *context,
                           const struct solve_request *request, struct solve_result *result);
 
 #endif

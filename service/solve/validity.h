@@ -7,7 +7,7 @@
 
 #include "impact/impact.h"
 #include "solve/problem.h"
-#include "solve/warnings.h"
+#include "solve/result.h"
 
 /* Estimated effect on the restitution of waves in spheres and compact bodies, which are rigid by
  * their shape (Rayleigh 1906). */

@@ -123,8 +123,8 @@ bool answering_solve(struct answering *answering)
 {
     struct responder *responder = answering->responder;
     const struct snapshot *snapshot = answering->shared.snapshots.current;
-    const struct solve_means means = {.catalogue = snapshot->set,
-                                      .tables = table_store_source(snapshot->tables->loaded)};
+    const struct solve_context means = {.catalogue = snapshot->set,
+                                        .tables = table_store_source(snapshot->tables->loaded)};
     return solve(responder->workspace, &means, &responder->request, &responder->result) ==
            PERCUSS_OK;
 }

@@ -47,7 +47,7 @@ struct settings {
 struct question {
     const struct rods *rods;
     struct solve_workspace *workspace;
-    struct solve_means means;
+    struct solve_context means;
     struct solve_request request;
     struct solve_result result;
 };
@@ -173,7 +173,7 @@ static bool compare(const struct settings *settings, struct question *question, 
     question->workspace = solve_workspace_create();
     if (!question->workspace)
         return fail("out of memory");
-    question->means = (struct solve_means){&question->rods->set, curves ? &source : NULL, {0}};
+    question->means = (struct solve_context){&question->rods->set, curves ? &source : NULL, {0}};
     ask(question, cases[which].rod, model, speed);
     if (settings->quick && once)
         question->request.options.tolerance = 0.01;

@@ -14,12 +14,12 @@
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                                            const struct solve_means *means,
+                                                            const struct solve_context *means,
                                                             const struct solve_request *request,
                                                             struct solve_result *result);
 
 enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                  const struct solve_means *means,
+                                  const struct solve_context *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
     return solve(workspace, means, request, result);
@@ -69,7 +69,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: mesh_once SCENE bar|mesh MODES [free]\n");
         return 2;
     }
-    const struct solve_means means = {.catalogue = &catalogue.set};
+    const struct solve_context means = {.catalogue = &catalogue.set};
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_request request = bench_request(scene, 1e-3);
     struct mesh_body *made = NULL;

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "solve/contact_model.h"
-#include "solve/placement.h"
+#include "solve/formulation.h"
 
 #define UPRIGHT                                                                                    \
     {                                                                                              \

@@ -14,12 +14,12 @@
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                                            const struct solve_means *means,
+                                                            const struct solve_context *means,
                                                             const struct solve_request *request,
                                                             struct solve_result *result);
 
 enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                  const struct solve_means *means,
+                                  const struct solve_context *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
     return solve(workspace, means, request, result);
@@ -27,12 +27,12 @@ enum percuss_status counted_solve(struct solve_workspace *workspace,
 
 /* The same for one sample. */
 __attribute__((noinline)) enum percuss_status counted_sample(struct repeat *repeat,
-                                                             const struct solve_means *means,
+                                                             const struct solve_context *means,
                                                              const struct solve_request *request,
                                                              const struct solution_model *model,
                                                              struct repeat_outcome *outcome);
 
-enum percuss_status counted_sample(struct repeat *repeat, const struct solve_means *means,
+enum percuss_status counted_sample(struct repeat *repeat, const struct solve_context *means,
                                    const struct solve_request *request,
                                    const struct solution_model *model,
                                    struct repeat_outcome *outcome)
@@ -86,7 +86,7 @@ static struct solve_request one_of(const struct solve_request *group, size_t con
 
 /* Solves to fill the caches, then once more, counted. */
 static enum percuss_status solve_warm(struct solve_workspace *workspace,
-                                      const struct solve_means *means,
+                                      const struct solve_context *means,
                                       const struct solve_request *request,
                                       struct solve_result *result)
 {
@@ -97,7 +97,7 @@ static enum percuss_status solve_warm(struct solve_workspace *workspace,
 }
 
 /* Impacts between 0.05 and 0.5 m/s by the model of the request's own. */
-static enum percuss_status solve_samples(const struct solve_means *means,
+static enum percuss_status solve_samples(const struct solve_context *means,
                                          const struct solve_request *request,
                                          struct solve_result *result)
 {
@@ -124,7 +124,7 @@ static enum percuss_status solve_samples(const struct solve_means *means,
 /* Blows at sites that were never asked before, on a body that is warm: counted, or asked once more
  * and then counted. */
 static enum percuss_status solve_sites(struct solve_workspace *workspace,
-                                       const struct solve_means *means,
+                                       const struct solve_context *means,
                                        const struct solve_request *request, bool again,
                                        struct solve_result *result)
 {
@@ -164,7 +164,7 @@ int main(int argc, char **argv)
                         "[first|groups|singles|samples|sites|sites-again]\n");
         return 2;
     }
-    const struct solve_means means = {.catalogue = &catalogue.set};
+    const struct solve_context means = {.catalogue = &catalogue.set};
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_request request = bench_request(scene, tolerance);
     enum percuss_status status = PERCUSS_INTERNAL;

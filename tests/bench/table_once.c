@@ -13,12 +13,12 @@
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                                            const struct solve_means *means,
+                                                            const struct solve_context *means,
                                                             const struct solve_request *request,
                                                             struct solve_result *result);
 
 enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                  const struct solve_means *means,
+                                  const struct solve_context *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
     return solve(workspace, means, request, result);
@@ -68,7 +68,7 @@ int main(int argc, char **argv)
         complain(&fault);
         return EXIT_FAILURE;
     }
-    const struct solve_means means = {set, table_store_source(store), {0}};
+    const struct solve_context means = {set, table_store_source(store), {0}};
     bool table = strcmp(argv[2], "table") == 0;
     struct solve_request request =
         blow(table ? PERCUSS_CONTACT_TABLE : PERCUSS_CONTACT_HERTZ, strtod(argv[3], NULL));

@@ -201,7 +201,7 @@ struct entrance {
 static bool run_entrance(void *context)
 {
     struct entrance *entrance = context;
-    const struct solve_means means = {.catalogue = &entrance->catalogue.set};
+    const struct solve_context means = {.catalogue = &entrance->catalogue.set};
     return solve(entrance->workspace, &means, &entrance->request, &entrance->result) == PERCUSS_OK;
 }
 

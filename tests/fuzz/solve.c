@@ -263,7 +263,7 @@ static void ask(struct lab *lab, const struct solve_request *request, bool twice
 {
     static struct solve_result result, again;
     struct patience patience = {0};
-    struct solve_means means = lab->means;
+    struct solve_context means = lab->means;
     means.watch = (struct watch){proceed, &patience};
     solve(lab->workspace, &means, request, &result);
     judge(&result, request, &patience);

@@ -22,7 +22,7 @@
 struct lab {
     struct body bodies[32];
     struct body_set set;
-    struct solve_means means; /* the set, no tables, nobody waits: until a test says otherwise */
+    struct solve_context means; /* the set, no tables, nobody waits: until a test says otherwise */
     struct solve_workspace *workspace;
 };
 

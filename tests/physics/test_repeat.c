@@ -155,7 +155,7 @@ static size_t record_of(const struct solve_result *result, double record[RECORD]
     return n;
 }
 
-static void solve_and_record(struct solve_workspace *workspace, const struct solve_means *means,
+static void solve_and_record(struct solve_workspace *workspace, const struct solve_context *means,
                              int index, double record[RECORD])
 {
     struct solve_result *result = malloc(sizeof *result);
@@ -232,7 +232,7 @@ static void kept_sites_do_not_change_a_bit(void **state)
 }
 
 struct worker {
-    const struct solve_means *means;
+    const struct solve_context *means;
     double (*expected)[RECORD];
     bool same;
 };

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Time histories (solve/tracing.c, impact/trace.c, force_log.c): what they show is the impact that
+/* Time histories (solve/report.c, impact/trace.c, force_log.c): what they show is the impact that
  * the reply describes, and kinematics and momentum hold between their columns. */
 #include <unistd.h>
 

@@ -27,7 +27,7 @@
 #include "impact/impact.h"
 #include "solve/contact_model.h"
 #include "solve/problem.h"
-#include "solve/warnings.h"
+#include "solve/result.h"
 
 /* An estimate for a contact after a solution, as a part of the restitution; 0: Hertz below yield.
  */

@@ -9,7 +9,7 @@
 #include "solve/assemble.h"
 #include "solve/error/attempt.h"
 #include "solve/formulation.h"
-#include "solve/state_out.h"
+#include "solve/report.h"
 
 /* Most modes of a family, and the accuracies of the first solution's steps and of the finest. */
 static const size_t MOST_MODES = 4800;
@@ -97,7 +97,7 @@ static bool solve_one(struct truth_room *room, const struct solve_request *reque
 {
     struct fault fault = {0};
     const struct mode_choice choice = {.cut = INFINITY, .most = MODE_CHOICE_MOST};
-    const struct solve_means means = {.catalogue = &room->set};
+    const struct solve_context means = {.catalogue = &room->set};
     arena_reset(&room->arena);
     struct problem *problem = solved->problem = problem_create(request, room->cache, &room->arena);
     return problem && !formulate(problem, &means, &fault) &&

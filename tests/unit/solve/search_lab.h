@@ -49,7 +49,7 @@ static inline struct attempt_context *search_begin(struct search *search,
                                                    const struct solve_request *request)
 {
     struct fault fault = {""};
-    struct solve_means means = {.catalogue = &search->lab->set};
+    struct solve_context means = {.catalogue = &search->lab->set};
     arena_reset(&search->arena);
     prepared_cache_use(search->cache, search->lab->set.revision);
     struct problem *problem = problem_create(request, search->cache, &search->arena);

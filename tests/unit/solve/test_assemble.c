@@ -7,7 +7,7 @@
 #include "physics/support.h"
 #include "solve/assemble.h"
 #include "solve/contact_model.h"
-#include "solve/placement.h"
+#include "solve/formulation.h"
 
 struct bench {
     struct lab *lab;

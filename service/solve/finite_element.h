@@ -1,13 +1,23 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Requests whose contact force comes from finite elements solved in every time step
- * (impact/concurrent.h). */
-#ifndef PERCUSS_SOLVE_CONCURRENT_H
-#define PERCUSS_SOLVE_CONCURRENT_H
+/* Requests that finite elements answer: complete ones mesh both bodies (fe/impact_complete.h), for
+ * one central impact of two bodies at rest but for their approach; concurrent ones mesh the contact
+ * region and solve it in each time step, beside the bodies' modes (impact/concurrent.h). */
+#ifndef PERCUSS_SOLVE_FINITE_ELEMENT_H
+#define PERCUSS_SOLVE_FINITE_ELEMENT_H
 
+#include "base/watch.h"
 #include "solve/result.h"
 #include "solve/solution.h"
+
+/* Solves on meshes of 4, 8 and 16 elements across the contact radius, with three or six places of
+ * the nodes each, until the estimated error of the restitution fits the tolerance
+ * (fe/complete_converge.h); answers with the mean of the finest mesh's phases. `pace` is told the
+ * part done, and stops it with TIMEOUT. Fills `result`, status and message too, and returns the
+ * status: BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
+enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
+                                    struct solve_result *result);
 
 /* The part of the tolerance that modes and steps of the closed form's solution may take: modes are
  * cheap beside the region. */

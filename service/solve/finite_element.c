@@ -1,15 +1,18 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "solve/complete.h"
+#include "solve/finite_element.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "contact/law_closed_form.h"
 #include "fe/complete_body.h"
 #include "fe/complete_converge.h"
 #include "model/vector.h"
+#include "solve/concurrent_search.h"
+#include "solve/contact_model.h"
 #include "solve/error/impulses.h"
 #include "solve/error/law.h"
 #include "solve/error/models.h"
@@ -17,13 +20,17 @@
 #include "solve/validity.h"
 
 /* Elements across the contact radius: of the finest mesh, which costs half a minute. */
-enum { FINEST = 16 };
+enum { COMPLETE_FINEST = 16 };
 
 /* Sideways motion and eccentricity, relative to the approach and the radius: what they change in
  * the impulse is of second order. */
-static const double ALONG = 1e-3;
+static const double COMPLETE_ALONG = 1e-3;
 
-static enum percuss_status check_options(const struct solve_request *request, struct fault *fault)
+/* Defect of the energy that is allowed, in tolerances. */
+static const double CONCURRENT_CLOSURE = 10.0;
+
+static enum percuss_status complete_check_options(const struct solve_request *request,
+                                                  struct fault *fault)
 {
     const struct solve_options *options = &request->options;
     const struct solve_contact *contact = &request->contacts[0];
@@ -56,7 +63,7 @@ static enum percuss_status check_options(const struct solve_request *request, st
 }
 
 /* The axis that a body turns symmetrically about, body frame; a sphere has all of them. */
-static void find_axis(const struct solid *solid, const double direction[3], double axis[3])
+static void complete_find_axis(const struct solid *solid, const double direction[3], double axis[3])
 {
     memset(axis, 0, 3 * sizeof *axis);
     if (solid->form == SOLID_BALL)
@@ -66,7 +73,8 @@ static void find_axis(const struct solid *solid, const double direction[3], doub
 }
 
 /* Whether the impact's line is the body's axis, and the body does not turn about another one. */
-static enum percuss_status check_side(const struct problem *problem, int which, struct fault *fault)
+static enum percuss_status complete_check_side(const struct problem *problem, int which,
+                                               struct fault *fault)
 {
     const struct contact_side *side = &problem->sides[0][which];
     const struct body *body = problem->bodies[side->body];
@@ -75,25 +83,25 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
     double axis[3];
     double off[3];
     /* the impact along the axis */
-    find_axis(&solid, side->direction, axis);
-    if (!(fabs(dot3(axis, side->direction)) >= 1.0 - 0.5 * ALONG * ALONG))
+    complete_find_axis(&solid, side->direction, axis);
+    if (!(fabs(dot3(axis, side->direction)) >= 1.0 - 0.5 * COMPLETE_ALONG * COMPLETE_ALONG))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].normal: complete-fe: must lie along the axis of %s (%c): hit "
                          "in the middle of an end face",
                          body->id, "xyz"[solid.axis]);
     /* and through the centre of mass */
     cross3(side->site.point, side->direction, off);
-    if (!(norm3(off) <= ALONG * solid.across))
+    if (!(norm3(off) <= COMPLETE_ALONG * solid.across))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].point: complete-fe: the normal passes %g m beside the centre "
                          "of mass of %s: must be at most %g m",
-                         norm3(off), body->id, ALONG * solid.across);
+                         norm3(off), body->id, COMPLETE_ALONG * solid.across);
     /* no turning across it */
     double spin[3];
     rotate_back3(problem->poses[side->body].rotation, stated->angular_velocity, spin);
     cross3(spin, axis, off);
     if (solid.form != SOLID_BALL &&
-        !(norm3(off) * body->length <= ALONG * fabs(problem->gap_rate[0])))
+        !(norm3(off) * body->length <= COMPLETE_ALONG * fabs(problem->gap_rate[0])))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "bodies[%zu].angular_velocity: complete-fe: %g rad/s across the axis of "
                          "%s: must be 0",
@@ -107,42 +115,43 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
     return PERCUSS_OK;
 }
 
-static enum percuss_status check_sideways(const struct problem *problem, struct fault *fault)
+static enum percuss_status complete_check_sideways(const struct problem *problem,
+                                                   struct fault *fault)
 {
     const struct solve_contact *contact = &problem->request->contacts[0];
     double relative[3];
     sub3(problem->request->bodies[contact->a].velocity,
          problem->request->bodies[contact->b].velocity, relative);
     add_scaled3(-dot3(relative, contact->normal), contact->normal, relative);
-    if (norm3(relative) <= ALONG * fabs(problem->gap_rate[0]))
+    if (norm3(relative) <= COMPLETE_ALONG * fabs(problem->gap_rate[0]))
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                      "bodies[].velocity: complete-fe: %g m/s across the normal: must be at most "
                      "%g of the approach",
-                     norm3(relative), ALONG);
+                     norm3(relative), COMPLETE_ALONG);
 }
 
-static enum percuss_status make_complete(const struct problem *problem,
+static enum percuss_status complete_make(const struct problem *problem,
                                          struct complete_problem *complete, struct fault *fault)
 {
     struct complete_body *targets[2] = {&complete->a, &complete->b};
-    enum percuss_status status = check_options(problem->request, fault);
+    enum percuss_status status = complete_check_options(problem->request, fault);
     for (int which = 0; !status && which < 2; which++) {
         const struct contact_side *side = &problem->sides[0][which];
         status = complete_body_make(problem->bodies[side->body], targets[which], fault);
         if (!status)
-            status = check_side(problem, which, fault);
+            status = complete_check_side(problem, which, fault);
     }
     if (!status)
-        status = check_sideways(problem, fault);
+        status = complete_check_sideways(problem, fault);
     complete->speed = -problem->gap_rate[0];
     complete->horizon =
         problem->request->options.horizon > 0.0 ? problem->request->options.horizon : SOLVE_HORIZON;
     return status;
 }
 
-static void fill_contact(const struct problem *problem, const struct complete_result *from,
-                         struct solve_result *result)
+static void complete_fill_contact(const struct problem *problem, const struct complete_result *from,
+                                  struct solve_result *result)
 {
     double w = problem->w[0];
     double touch = problem->request->contacts[0].gap / -problem->gap_rate[0];
@@ -185,8 +194,8 @@ static void fill_contact(const struct problem *problem, const struct complete_re
     result->window = touch + from->end_time;
 }
 
-static void fill_bodies(const struct problem *problem, const struct complete_result *from,
-                        struct solve_result *result)
+static void complete_fill_bodies(const struct problem *problem, const struct complete_result *from,
+                                 struct solve_result *result)
 {
     result->body_count = 2;
     for (int which = 0; which < 2; which++) {
@@ -202,8 +211,8 @@ static void fill_bodies(const struct problem *problem, const struct complete_res
     report_velocities(problem, result);
 }
 
-static void fill_model(const struct complete_convergence *convergence,
-                       const struct problem *problem, struct solve_result *result)
+static void complete_fill_model(const struct complete_convergence *convergence,
+                                const struct problem *problem, struct solve_result *result)
 {
     const struct complete_result *from = &convergence->result;
     const struct swing *finest = &convergence->swing[convergence->meshes - 1];
@@ -236,15 +245,15 @@ static void fill_model(const struct complete_convergence *convergence,
 }
 
 /* The energy that the steps gain or lose, as if all of it were the rebound's. */
-static double step_error(const struct complete_result *from)
+static double complete_step_error(const struct complete_result *from)
 {
     double e = from->restitution;
     double missed = fabs(from->energy.closure + from->energy.contact);
     return sqrt(e * e + missed / from->energy.available) - fabs(e);
 }
 
-static void fill_end(const struct complete_result *from, double error, double tolerance,
-                     struct solve_result *result)
+static void complete_fill_end(const struct complete_result *from, double error, double tolerance,
+                              struct solve_result *result)
 {
     /* how it ended */
     result->end_reason = from->end;
@@ -257,7 +266,7 @@ static void fill_end(const struct complete_result *from, double error, double to
     /* errors: of the mesh, told as the modes', and of the steps */
     result->restitution_modes = error;
     result->impulse_modes = error * result->contacts[0].impulse_compression;
-    result->restitution_time = step_error(from);
+    result->restitution_time = complete_step_error(from);
     result->impulse_time = result->restitution_time * result->contacts[0].impulse_compression;
     result->tolerance_met = error + result->restitution_time <= tolerance;
     if (!result->tolerance_met)
@@ -273,21 +282,21 @@ static void fill_end(const struct complete_result *from, double error, double to
 enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
                                     struct solve_result *result)
 {
-    struct complete_problem complete = {.cells = FINEST, .pace = pace};
+    struct complete_problem complete = {.cells = COMPLETE_FINEST, .pace = pace};
     struct complete_convergence *convergence = arena_take(problem->arena, 1, sizeof *convergence);
     if (!convergence)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     /* the impact, on finer meshes until they agree */
-    enum percuss_status status = make_complete(problem, &complete, &result->fault);
+    enum percuss_status status = complete_make(problem, &complete, &result->fault);
     if (status == PERCUSS_OK)
         status = complete_converge(&complete, problem->tolerance, convergence, &result->fault);
     if (status)
         return status;
     /* the answer of the finest */
-    fill_contact(problem, &convergence->result, result);
-    fill_bodies(problem, &convergence->result, result);
-    fill_model(convergence, problem, result);
-    fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
+    complete_fill_contact(problem, &convergence->result, result);
+    complete_fill_bodies(problem, &convergence->result, result);
+    complete_fill_model(convergence, problem, result);
+    complete_fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
     struct model_impact blow = {.duration = convergence->result.end_time};
     for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
         blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
@@ -306,4 +315,106 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     unstated_find(problem, 0, &whole, &warnings);
     report_warnings(&warnings, result);
     return result->status;
+}
+
+static enum percuss_status concurrent_check(const struct problem *problem, struct fault *fault)
+{
+    const struct solve_options *options = &problem->request->options;
+    /* one contact, without a dent */
+    if (problem->contact_count != 1)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: concurrent-fe: %zu contacts: it answers one",
+                         problem->contact_count);
+    if (problem->contact_model.choices[0].dented || problem->contact_model.depth[0] > 0.0)
+        return fault_set(
+            fault, PERCUSS_BAD_REQUEST,
+            "bodies[].state: concurrent-fe: there is a dent at contacts[0]: its region "
+            "starts without: options.dents must be ignore");
+    /* no choice that it has not */
+    if (options->method != PERCUSS_METHOD_MODAL)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.method: %s: concurrent-fe is modal: leave it out",
+                         method_name(options->method));
+    if (options->conditioning)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.conditioning: must be false for concurrent-fe");
+    return PERCUSS_OK;
+}
+
+/* Takes the search's answer, its error, and the solutions near it. */
+static void concurrent_adopt(struct solution *solution, const struct problem *problem,
+                             const struct concurrent_search *search)
+{
+    const struct impact_outcome *answer = &search->answer;
+    solution->outcome = *answer;
+    solution->log = NULL;
+    solution->steps = (struct step_error){
+        .restitution = search->answer_error,
+        .impulse = search->answer_error * problem->impulse_compression[0],
+        .energy_defect = outcome_energy_defect(problem, answer),
+    };
+    solution->steps.energy_closes =
+        outcome_energy_closes(problem, answer, CONCURRENT_CLOSURE * problem->tolerance);
+    solution->tolerance_met =
+        solution->steps.energy_closes &&
+        solution->steps.restitution + solution->modes.restitution <= problem->tolerance;
+    /* what the modal solutions say is of another contact model */
+    neighbours_begin(&solution->neighbours, problem, answer);
+    for (unsigned k = 0; k < SWING_PHASES / 2; k++)
+        neighbours_add(&solution->neighbours, problem, &search->latest[k]);
+}
+
+enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,
+                                      struct pace *pace, struct concurrent_effort *effort,
+                                      struct fault *fault)
+{
+    enum percuss_status status = concurrent_check(problem, fault);
+    if (status != PERCUSS_OK)
+        return status;
+    *effort = (struct concurrent_effort){.extrapolated = NAN};
+    /* nothing to refine where they do not touch */
+    if (solution->outcome.tracks[0].count == 0)
+        return PERCUSS_OK;
+    struct concurrent_search *search = arena_take(problem->arena, 1, sizeof *search);
+    if (!search)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    const struct scene *scene = &solution->assembly->scene;
+    *search = (struct concurrent_search){
+        .problem = problem,
+        .scene = scene,
+        .pace = pace,
+        .fault = fault,
+        .horizon = attempt_horizon(problem, scene),
+        .expected = outcome_deepest(&solution->outcome, 0),
+    };
+    /* finer steps and meshes, within what the modes leave of the tolerance */
+    status = concurrent_search(search, problem->tolerance - solution->modes.restitution);
+    if (status != PERCUSS_OK)
+        return status;
+    concurrent_adopt(solution, problem, search);
+    *effort = (struct concurrent_effort){
+        .resolution = concurrent_resolution(search->meshes - 1),
+        .solutions = search->solutions,
+        .newton_steps = search->newton_steps,
+        .steps = search->answer.steps,
+        .extrapolated = search->restitution,
+    };
+    return PERCUSS_OK;
+}
+
+void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
+                       const struct solution *solution, struct solve_result *result)
+{
+    const struct contact_history *history = &solution->outcome.laws[0].history;
+    result->contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
+    snprintf(result->reason, sizeof result->reason,
+             "contact region of finite elements, solved at each of %lu steps: %zu elements along "
+             "its core; %zu solutions, %zu Newton steps; dent %.3g um, limit of the restitution "
+             "%.5f; %zu modes up to %.4g Hz, residual flexibility for the others%s",
+             effort->steps, effort->resolution, effort->solutions, effort->newton_steps,
+             1e6 * history->dent, effort->extrapolated, solution->assembly->all_modes,
+             solution->assembly->highest / (2.0 * M_PI),
+             problem->hertz[0].axis_ratio < HERTZ_CIRCULAR_RATIO
+                 ? "; elliptic: by the sphere of equal stiffness, an approximation"
+                 : "");
 }

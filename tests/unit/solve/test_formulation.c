@@ -1,9 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/placement.c: gap rates, W and Eq. (4) from a request, and its refusals. */
+/* Mirrors service/solve/formulation.c: gap rates, W and Eq. (4) from a request, and its refusals.
+ */
 #include "physics/support.h"
-#include "solve/placement.h"
+#include "solve/formulation.h"
 
 static struct lab *shapes(void)
 {

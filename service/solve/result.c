@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "solve/warnings.h"
+#include "solve/result.h"
 
 #include <stdarg.h>
 #include <stdio.h>
