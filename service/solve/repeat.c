@@ -137,8 +137,8 @@ static enum percuss_status find(struct repeat *repeat, const struct solve_contex
     enum percuss_status status =
         kept ? go_on(repeat, request, fault) : begin(repeat, context, request, fault);
     if (!status)
-        status = solution_find(&repeat->solution, repeat->problem, model, &repeat->run_memory,
-                               &pace, fault);
+        status = solution_find(&repeat->solution, repeat->problem, repeat->problem->tolerance,
+                               model, &repeat->run_memory, &pace, fault);
     /* what this blow decided is not for the next one */
     repeat->lasting = repeat->lasting && !repeat->solution.revised;
     /* a solution that lacks something for want of memory is none, whatever it says */

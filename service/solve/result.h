@@ -93,8 +93,6 @@ struct solve_result {
     enum percuss_end_reason end_reason;
     double window; /* s; from then on vibration cannot cause a contact */
     size_t contact_count, body_count;
-    struct solve_contact_result contacts[PERCUSS_MAX_CONTACTS];
-    struct solve_body_result bodies[PERCUSS_MAX_BODIES];
     enum percuss_delassus_source delassus_source;
     bool velocities_known; /* the service's own W was used */
     struct impact_energy energy;
@@ -113,7 +111,16 @@ struct solve_result {
     double time_shift;
     const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
     size_t warning_count;
+    /* long lists stand last, in this order: solve() clears the members before them */
+    struct solve_contact_result contacts[PERCUSS_MAX_CONTACTS];
+    struct solve_body_result bodies[PERCUSS_MAX_BODIES];
     char warnings[40][WARNING_SIZE]; /* more than validity.h finds */
 };
+_Static_assert(sizeof(struct solve_result) ==
+                   offsetof(struct solve_result, contacts) +
+                       sizeof(struct solve_contact_result[PERCUSS_MAX_CONTACTS]) +
+                       sizeof(struct solve_body_result[PERCUSS_MAX_BODIES]) +
+                       sizeof(char[40][WARNING_SIZE]),
+               "no other member stands behind the first list");
 
 #endif

@@ -4,7 +4,6 @@
 #include "solve/solution.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
@@ -124,10 +123,7 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
 {
     const struct problem *problem = context->problem;
     bool sequence = refinement_expects_sequence(problem);
-    /* but for the lists of those neighbours, which the first solution begins */
-    memset(solution, 0, offsetof(struct solution, neighbours));
-    solution->neighbours.solutions = 0;
-    solution->restitution_by_speed = NAN;
+    *solution = (struct solution){.restitution_by_speed = NAN};
     /* steps as the tolerance asks for to begin with, and as many modes */
     struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
                                                               problem->contact_count > 1),
@@ -176,13 +172,15 @@ static enum percuss_status run(struct attempt_context *context, const struct sol
 }
 
 enum percuss_status solution_find(struct solution *solution, struct problem *problem,
-                                  const struct solution_model *model, struct arena *arena,
-                                  struct pace *pace, struct fault *fault)
+                                  double tolerance, const struct solution_model *model,
+                                  struct arena *arena, struct pace *pace, struct fault *fault)
 {
     for (bool revised = false;; revised = true) {
-        /* each time with all of the effort */
+        /* each time with all of the effort, within the search's own tolerance */
+        struct problem searched = *problem;
+        searched.tolerance = tolerance;
         struct attempt_context context = {
-            .problem = problem,
+            .problem = &searched,
             .arena = arena,
             .pace = pace,
             .work = attempt_work_allowed(problem->request->options.method),

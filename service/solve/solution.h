@@ -38,14 +38,14 @@ struct solution {
     struct neighbours neighbours; /* the answer, and those that it was compared with */
 };
 
-/* Solves until the estimated error fits the tolerance or the effort allowed is spent, or once by a
- * model (NULL: none); again as long as a solution leaves something to revise of the problem. By a
- * model solution->scene is taken as it is if it is there. The arena is the outcome's; `pace` (NULL:
- * nobody) may stop it. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT; BAD_REQUEST: an overlap
- * that contradicts itself. */
+/* Solves until the estimated error fits `tolerance` or the effort allowed is spent, or once by a
+ * model (NULL: none). Where the solution contradicts the choices of the formulation it revises the
+ * problem, whose tolerance stays, and solves again. With a model it takes solution->scene as it is
+ * if it is there. The arena is the outcome's; `pace` (NULL: none) may stop it. PERCUSS_OK,
+ * PERCUSS_INTERNAL or PERCUSS_TIMEOUT; BAD_REQUEST: an overlap that contradicts itself. */
 enum percuss_status solution_find(struct solution *solution, struct problem *problem,
-                                  const struct solution_model *model, struct arena *arena,
-                                  struct pace *pace, struct fault *fault);
+                                  double tolerance, const struct solution_model *model,
+                                  struct arena *arena, struct pace *pace, struct fault *fault);
 
 /* What a search settled on. */
 struct solution_model solution_model_of(const struct solution *solution);

@@ -41,14 +41,10 @@ void solve_workspace_free(struct solve_workspace *workspace)
     free(workspace);
 }
 
-/* All but the lists, which are long and whose counts say what is filled. */
+/* All but the lists, which are long; their counts tell which entries are filled. */
 static void clear(struct solve_result *result)
 {
-    const size_t lists = offsetof(struct solve_result, contacts);
-    const size_t after = offsetof(struct solve_result, delassus_source);
-    const size_t texts = offsetof(struct solve_result, warnings);
-    memset(result, 0, lists);
-    memset((char *)result + after, 0, texts - after);
+    memset(result, 0, offsetof(struct solve_result, contacts));
     result->restitution_by_speed = NAN;
 }
 
@@ -121,10 +117,10 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     bool concurrent = method == CONTACT_CONCURRENT;
     double tolerance = problem->tolerance;
     if (concurrent)
-        problem->tolerance *= CONCURRENT_MODES_SHARE;
+        tolerance *= CONCURRENT_MODES_SHARE;
     if (!status)
-        status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
-    problem->tolerance = tolerance;
+        status = solution_find(solution, problem, tolerance, NULL, &workspace->arena, &pace,
+                               &result->fault);
     struct concurrent_effort effort;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);

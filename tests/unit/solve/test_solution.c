@@ -14,7 +14,7 @@ static double found(struct search *search, const struct solve_request *request,
     struct fault fault = {""};
     struct problem *problem = (struct problem *)search_begin(search, request)->problem;
     solution = (struct solution){0};
-    if (solution_find(&solution, problem, model, &search->arena, NULL, &fault))
+    if (solution_find(&solution, problem, problem->tolerance, model, &search->arena, NULL, &fault))
         fail_msg("%s", fault.text);
     return outcome_restitution(problem, &solution.outcome, 0);
 }
