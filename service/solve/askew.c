@@ -30,7 +30,7 @@ static bool beam_of(const struct body *rod, struct body *beam)
 
 /* Energy of a mode after a force like half a sine, over that after a blow of the same impulse:
  * cos^2(w T/2) / (1 - (w T/pi)^2)^2, here 1 where that is about 1, and then its envelope. */
-static double answer(double omega, double duration)
+static double spectrum_of_half_sine(double omega, double duration)
 {
     double x = omega * duration / M_PI;
     return x > 1.5 ? 1.0 / ((1.0 - x * x) * (1.0 - x * x)) : 1.0;
@@ -50,7 +50,7 @@ static double bending(const struct problem *problem, const struct body *beam,
             problem->arena->lacks = true;
         for (size_t k = 0; modes && k < modes->count; k++) {
             double phi = modal_participation(beam, modes, k, &load->family[family]);
-            sum += phi * phi * answer(modes->omega[k], duration);
+            sum += phi * phi * spectrum_of_half_sine(modes->omega[k], duration);
         }
         modal_family_free(modes);
     }
@@ -74,7 +74,7 @@ static bool is_askew(const struct problem *problem, size_t contact, int which, d
 }
 
 /* Of one rod, as a part of W. */
-static double share_of(const struct problem *problem, size_t contact, int which, double duration)
+static double askew_share(const struct problem *problem, size_t contact, int which, double duration)
 {
     const struct contact_side *side = &problem->sides[contact][which];
     struct body beam;
@@ -88,12 +88,12 @@ static double share_of(const struct problem *problem, size_t contact, int which,
 }
 
 /* Of the energy of approach the impulse 1 + e leaves (1 + e)^2 S in the bending: e^2 = 1 - (1 +
- * e)^2 S, whose root above -1 is (1 - S)/(1 + S). */
+ * e)^2 S; its root above -1 is (1 - S)/(1 + S). */
 double askew_loss(const struct problem *problem, size_t contact, double duration)
 {
     double share = 0.0;
     for (int which = 0; which < 2 && duration > 0.0; which++)
-        share += share_of(problem, contact, which, duration);
+        share += askew_share(problem, contact, which, duration);
     return 2.0 * share / (1.0 + share);
 }
 

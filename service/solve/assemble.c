@@ -11,11 +11,10 @@
 #include "solve/mode_choice.h"
 #include "solve/radiation.h"
 
-/* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
- */
+/* The scene leaves out a group if all its shapes vanish at every contact, up to rounding. */
 static const double NODE_SHARE = 1e-9;
 
-/* What one family of one body adds. */
+/* Contribution of one family of one body. */
 struct addition {
     struct assembly *assembly;
     const struct problem *problem;
@@ -81,7 +80,7 @@ static double participation_scale(const struct body *body)
     return 1.0 / sqrt(body->mass);
 }
 
-/* What the modal sum holds of the compliance between two contacts. */
+/* Part of the compliance between two contacts that the modal sum holds. */
 static double held_compliance(const struct scene_group *group, size_t i, size_t j)
 {
     const double *a = group->participation[i];
@@ -93,7 +92,7 @@ static double held_compliance(const struct scene_group *group, size_t i, size_t 
     return sum;
 }
 
-/* The group as the contacts see it, with rows of those alone that excite it; *excited: any. */
+/* The group as the contacts excite it, with rows of those contacts alone; *excited: any does. */
 static bool make_group(const struct addition *add, const struct prepared_group *source,
                        struct scene_group *group, bool *excited)
 {
@@ -124,7 +123,7 @@ static bool make_group(const struct addition *add, const struct prepared_group *
     return true;
 }
 
-/* A group that a contact excites, and what it holds of each contact's static compliance. */
+/* Adds a group if a contact excites it, and takes its static compliance from the residual. */
 static bool add_group(const struct addition *add, const struct prepared_group *source,
                       double *residual, double *left)
 {
@@ -143,7 +142,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
             left[i] -= i == j ? held : 0.0;
         }
     }
-    /* without those of a mesh that hardly take part: families of bars are what a place excites */
+    /* without modes of a mesh that hardly take part; a place excites a bar's families whole */
     assembly->offered[add->body] += group->count;
     if (body_is_solid(add->problem->bodies[add->body]) &&
         !mode_choice_leave_out(add->problem, add->state, add->family, &source, group))
@@ -161,7 +160,8 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     return true;
 }
 
-/* What the modes from add->count on hold at each contact, `left` by the groups of the family. */
+/* Adds the omitted modes from add->count on at each contact; `left`: the family's compliance
+ * without that of its groups. */
 static void add_omitted(const struct addition *add, const double *left)
 {
     struct assembly *assembly = add->assembly;
@@ -180,7 +180,7 @@ static void add_omitted(const struct addition *add, const double *left)
          * phi^2/omega^2 adds up to beyond, 2 damping phi^2/omega^3 to damping beyond/omega */
         assembly->omitted[i].inertia += beyond / (stand_in * stand_in);
         assembly->omitted[i].viscosity += damping * beyond / omega;
-        /* kept for assemble_remainder */
+        /* for assemble_remainder */
         assembly->parts[assembly->part_count++] =
             (struct omitted_part){add->body, i, add->family, add->count, beyond, omega};
     }
@@ -208,11 +208,11 @@ static bool add_family(const struct addition *add, double *residual)
             left[i] = i == j ? all : left[i];
         }
     }
-    /* less what its modes hold */
+    /* less that of its modes */
     for (size_t g = 0; g < add->prepared->group_count; g++)
         if (!add_group(add, &add->prepared->groups[g], residual, left))
             return false;
-    /* what none of them holds does not follow a force at once */
+    /* the omitted modes do not follow a force at once */
     add_omitted(add, left);
     return true;
 }
@@ -242,8 +242,8 @@ static bool fill_scene(struct assembly *assembly, const struct problem *problem)
 }
 
 /* How many modes of the family take part. */
-static size_t wanted(const struct addition *add, const struct scene *rigid,
-                     const struct mode_choice *choice)
+static size_t assembly_wanted_modes(const struct addition *add, const struct scene *rigid,
+                                    const struct mode_choice *choice)
 {
     size_t fixed = add->problem->bodies[add->body]->modes;
     size_t count = fixed;
@@ -260,9 +260,9 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
     return count < most ? count : most;
 }
 
-static bool create(struct assembly *assembly, const struct problem *problem)
+static bool assembly_create(struct assembly *assembly, const struct problem *problem)
 {
-    /* two parities of every family of a body, and what half-spaces radiate of each contact */
+    /* two parities of every family of a body, and the half-spaces' waves of each contact */
     size_t groups = 2 * BODY_MOST_FAMILIES * problem->body_count + problem->contact_count;
     *assembly = (struct assembly){.lowest_omitted = INFINITY};
     assembly->groups = arena_take(problem->arena, groups, sizeof *assembly->groups);
@@ -283,9 +283,9 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
     size_t n = problem->contact_count;
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     double compliance[PERCUSS_MAX_CONTACTS];
-    if (!residual || !create(assembly, problem) || !fill_scene(assembly, problem))
+    if (!residual || !assembly_create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
-    /* what is in series with the laws */
+    /* compliance in series with the laws */
     for (size_t c = 0; problem->compliance.series && c < n; c++)
         residual[c * n + c] = problem->compliance.series[c];
     for (size_t c = 0; problem->shift && c < n; c++)
@@ -307,7 +307,7 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                 continue;
             for (size_t c = 0; c < n; c++)
                 compliance[c] = NAN;
-            add.count = wanted(&add, &rigid, choice);
+            add.count = assembly_wanted_modes(&add, &rigid, choice);
             if (add.count > MODE_CHOICE_MOST)
                 return false;
             assembly->adjustable = assembly->adjustable || body->modes == 0;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A scene of a problem, with what is needed to read its result. */
+/* A scene of a problem, with the data that its result is read by. */
 #ifndef PERCUSS_SOLVE_ASSEMBLY_H
 #define PERCUSS_SOLVE_ASSEMBLY_H
 
@@ -17,14 +17,13 @@ struct omitted_part {
     double omega;      /* of the first, rad/s; of a body that has no more, of its last one */
 };
 
-/* What the omitted modes of all bodies do to a contact besides residual flexibility: their response
- * to a slow force F is C F - viscosity F' - inertia F'' + ... */
+/* Effect of all bodies' omitted modes on a contact besides residual flexibility: their response to
+ * a slow force F is C F - viscosity F' - inertia F'' + ... */
 struct omitted {
     double inertia;   /* sum phi^2/omega^4, m s^2/N */
     double viscosity; /* sum 2 damping phi^2/omega^3, m s/N */
 };
 
-/* A scene with what is needed to read its result. */
 struct assembly {
     struct scene scene;
     struct scene_group *groups;
@@ -40,7 +39,7 @@ struct assembly {
     bool capped;                        /* a family wants more modes than are allowed */
     double highest;                     /* of the frequencies that take part, rad/s */
     double lowest_omitted;              /* rad/s; INFINITY: no more modes to be had */
-    double radiated_error;              /* in e, by what radiation.h leaves out of the waves */
+    double radiated_error;              /* in e, by the waves that radiation.h omits */
 };
 
 #endif

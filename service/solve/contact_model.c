@@ -27,8 +27,7 @@ static const struct contact_law_operations *asked_of(const struct problem *probl
     return contact_law_asked(problem->request->options.contact_model);
 }
 
-/* The dent nearest to a site among those whose patch holds it; its index, or the number of dents.
- */
+/* Index of the nearest dent with a patch that covers the site, or the number of dents. */
 static size_t find_dent(const struct body_state *state, const double point[3])
 {
     size_t found = state->dents;
@@ -46,8 +45,8 @@ static size_t find_dent(const struct body_state *state, const double point[3])
     return found;
 }
 
-/* What earlier impacts left under a contact: both bodies' dents lower the surface, the one of the
- * body that yields is remembered by the law. */
+/* Dents of earlier impacts under a contact: those of both bodies lower the surface; that of the
+ * yielding body sets the law's history. */
 static void find_dents(struct problem *problem, size_t c)
 {
     struct contact_model *model = &problem->contact_model;
@@ -140,7 +139,7 @@ static enum percuss_status find_law(struct problem *problem,
     const struct material *a = problem_material(problem, c, 0);
     const struct material *b = problem_material(problem, c, 1);
     const struct contact_law_operations *asked = asked_of(problem);
-    /* the law itself, or what stands for it */
+    /* the law itself, or its substitute */
     choice->side = closed_form_softer(a, b);
     choice->yield = closed_form_yield(hertz, a, b);
     choice->plastic = asked->make(hertz, a, b);
@@ -254,7 +253,7 @@ const struct contact_law_operations *contact_model_used(const struct problem *pr
     return used;
 }
 
-/* The contact whose indentation is largest against that of its yield. */
+/* The contact with the largest indentation relative to that at its yield. */
 static size_t hardest_hit(const struct problem *problem, const struct impact_outcome *outcome)
 {
     size_t hardest = 0;
@@ -309,12 +308,12 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
                     history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
     else
         text_add(text, ", below yield");
-    /* what it starts from and where it ends */
+    /* its start and its end */
     if (choice->dented)
         text_add(text, ", in the dent of earlier impacts");
     if (contact_model_beyond_table(outcome, c) > 0.0)
         text_add(text, "; the table ends before that and goes on as a fully plastic contact");
-    /* what is approximated */
+    /* its approximations */
     if (!tabulated && asked_of(problem)->tables == CONTACT_TABLES_IF_ANY)
         text_add(text, "; no table for these bodies");
     if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO && !used->elliptic)

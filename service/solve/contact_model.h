@@ -37,17 +37,17 @@ enum percuss_status contact_model_choose(struct problem *problem,
  * not needed) and are now the problem's. At most once. */
 bool contact_model_revise(struct problem *problem, const struct impact_outcome *outcome);
 
-/* What the reply names: the law that counts for all contacts. */
+/* The law that the reply names for all contacts. */
 const struct contact_law_operations *contact_model_used(const struct problem *problem);
 
-/* Whether a contact left more than it found. */
+/* Whether a contact deepened its history: it yielded in this impact. */
 bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
 /* How far beyond the end of its table a contact went, over that end; 0: not at all, or no table. */
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact);
 
-/* Writes why, and what it approximates. */
+/* Writes the reason for the law, and its approximations. */
 void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
                            struct text *text);
 

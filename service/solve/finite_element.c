@@ -22,8 +22,8 @@
 /* Elements across the contact radius: of the finest mesh, which costs half a minute. */
 enum { COMPLETE_FINEST = 16 };
 
-/* Sideways motion and eccentricity, relative to the approach and the radius: what they change in
- * the impulse is of second order. */
+/* Sideways motion and eccentricity, relative to the approach and the radius: their effect on the
+ * impulse is of second order. */
 static const double COMPLETE_ALONG = 1e-3;
 
 /* Defect of the energy that is allowed, in tolerances. */
@@ -47,7 +47,7 @@ static enum percuss_status complete_check_options(const struct solve_request *re
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[0].gap_acceleration: %g: must be 0 for complete-fe",
                          contact->gap_acceleration);
-    /* no choice of method or model that it has not */
+    /* no method or model that it lacks */
     if (options->method != PERCUSS_METHOD_MODAL)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.method: %s: complete-fe has a method of its own: leave it out",
@@ -218,7 +218,7 @@ static void complete_fill_model(const struct complete_convergence *convergence,
     const struct swing *finest = &convergence->swing[convergence->meshes - 1];
     const struct body *bodies[2] = {problem->bodies[0], problem->bodies[1]};
     const struct complete_energy *energy = &from->energy;
-    /* what was used */
+    /* the models in use */
     result->contact_model = PERCUSS_CONTACT_COMPLETE_FE;
     result->compliance = PERCUSS_COMPLIANCE_MATCHED;
     result->method = PERCUSS_METHOD_MODAL;
@@ -275,7 +275,7 @@ static void complete_fill_end(const struct complete_result *from, double error, 
                     "the finest mesh allowed",
                     error + result->restitution_time);
     result->tolerance = tolerance;
-    /* what is not answered */
+    /* omitted from the answer */
     report_warn(result, "states_after: none: complete-fe keeps neither vibration nor dents");
 }
 
@@ -308,7 +308,7 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
         models_complete_error(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) + yield;
     report_model_error(model, yield, range, result);
     impulse_error_alone(problem, result);
-    /* where small strains end, and what materials lose of themselves */
+    /* limits of small strains, and losses in the materials */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);
     loss_find(problem, 0, fabs(e), &warnings);
@@ -330,7 +330,7 @@ static enum percuss_status concurrent_check(const struct problem *problem, struc
             fault, PERCUSS_BAD_REQUEST,
             "bodies[].state: concurrent-fe: there is a dent at contacts[0]: its region "
             "starts without: options.dents must be ignore");
-    /* no choice that it has not */
+    /* no option that it lacks */
     if (options->method != PERCUSS_METHOD_MODAL)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.method: %s: concurrent-fe is modal: leave it out",
@@ -358,7 +358,7 @@ static void concurrent_adopt(struct solution *solution, const struct problem *pr
     solution->tolerance_met =
         solution->steps.energy_closes &&
         solution->steps.restitution + solution->modes.restitution <= problem->tolerance;
-    /* what the modal solutions say is of another contact model */
+    /* the modal solutions had another contact model */
     neighbours_begin(&solution->neighbours, problem, answer);
     for (unsigned k = 0; k < SWING_PHASES / 2; k++)
         neighbours_add(&solution->neighbours, problem, &search->latest[k]);
@@ -387,7 +387,7 @@ enum percuss_status concurrent_refine(struct solution *solution, const struct pr
         .horizon = attempt_horizon(problem, scene),
         .expected = outcome_deepest(&solution->outcome, 0),
     };
-    /* finer steps and meshes, within what the modes leave of the tolerance */
+    /* finer steps and meshes, within the rest of the tolerance */
     status = concurrent_search(search, problem->tolerance - solution->modes.restitution);
     if (status != PERCUSS_OK)
         return status;

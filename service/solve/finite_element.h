@@ -15,7 +15,7 @@
  * the nodes each, until the estimated error of the restitution fits the tolerance
  * (fe/complete_converge.h); answers with the mean of the finest mesh's phases. `pace` is told the
  * part done, and stops it with TIMEOUT. Fills `result`, status and message too, and returns the
- * status: BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
+ * status: BAD_REQUEST and UNSUPPORTED_GEOMETRY name the member that is not axisymmetric. */
 enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
                                     struct solve_result *result);
 
@@ -23,7 +23,7 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
  * cheap beside the region. */
 static const double CONCURRENT_MODES_SHARE = 0.25;
 
-/* What a reply says of it. */
+/* Effort of a concurrent solution, for the reply. */
 struct concurrent_effort {
     size_t resolution;              /* of the finest mesh */
     unsigned long steps;            /* of the solution that answers */
@@ -34,12 +34,12 @@ struct concurrent_effort {
 /* Takes a solution with the closed form within that share of the tolerance, its modes and its error
  * in them, and solves it anew with contact regions of more steps and finer meshes until one is
  * within the tolerance of their limit. An elliptic contact's region is that of the sphere of equal
- * stiffness. BAD_REQUEST: what the region cannot answer; TIMEOUT where the pace stopped it. */
+ * stiffness. BAD_REQUEST: the region does not support the request; TIMEOUT: the pace stopped it. */
 enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,
                                       struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault);
 
-/* Says so in the result. */
+/* Fills the contact model and the reason of `result`. */
 void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
                        const struct solution *solution, struct solve_result *result);
 

@@ -15,15 +15,15 @@
 #include "solve/error/deviation.h"
 #include "solve/vibration.h"
 
-/* Faster approaches are outside everything that the models describe. */
+/* Faster approaches are outside the range of all models. */
 static const double MAX_SPEED = 1e4;
-/* So is a mass beyond these. */
+/* So are masses outside this range. */
 static const double MIN_INVERSE_MASS = 1e-100;
 
-/* Share of the smallest radius that a point may lie off a surface: what replayed lists overlap by.
- */
+/* Share of the smallest radius that a point may lie off a surface: contacts of replayed lists
+ * overlap by as much. */
 static const double OFF_SURFACE = 0.1;
-/* What rounding may leave of a symmetric matrix, and of one that is not definite, relatively. */
+/* Relative rounding allowed in a symmetric matrix, and below zero in a semidefinite one. */
 static const double ASYMMETRY = 1e-9;
 static const double INDEFINITE = 1e-9;
 /* Eigenvalues that count as zero, of the largest. */
@@ -32,8 +32,8 @@ static const double NULL_EIGENVALUE = 1e-12;
  * cylinder a fit leaves up to 2 % of its curvature along it (docs/lab/mesh.md). */
 static const double FITTED_LINE_RATIO = 0.03;
 
-/* Puts the body with the request's own parameters in its place. */
-static enum percuss_status vary(struct problem *problem, size_t index, struct fault *fault)
+/* Replaces a body by one with the request's own parameters. */
+static enum percuss_status vary_body(struct problem *problem, size_t index, struct fault *fault)
 {
     const struct solve_body *asked = &problem->request->bodies[index];
     struct body *varied = arena_take(problem->arena, 1, sizeof *varied);
@@ -48,7 +48,7 @@ static enum percuss_status vary(struct problem *problem, size_t index, struct fa
     return PERCUSS_OK;
 }
 
-/* A body that has yet to be made of its mesh, or could not be. */
+/* Refuses a body that is still being made of its mesh, or could not be. */
 static enum percuss_status refuse_order(const struct body_order *order, size_t index,
                                         struct fault *fault)
 {
@@ -72,7 +72,7 @@ static enum percuss_status find_bodies(struct problem *problem, const struct bod
                              i, body->id, catalogue->count);
         enum percuss_status status = PERCUSS_OK;
         if (body->variation_count > 0)
-            status = vary(problem, i, fault);
+            status = vary_body(problem, i, fault);
         if (status)
             return status;
         /* where it is */
@@ -105,8 +105,8 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
     return PERCUSS_OK;
 }
 
-/* Surfaces that do not touch in one point there: a line or a plane, or a hollow that is narrower
- * than what lies in it. */
+/* Refuses surfaces that do not touch in one point there: a line or a plane, or a hollow that is
+ * narrower than the body in it. */
 static enum percuss_status refuse_shape(const struct problem *problem, size_t index,
                                         const double curvature[2], struct fault *fault)
 {
@@ -337,7 +337,7 @@ static bool choose_all_planes(struct problem *problem)
     return true;
 }
 
-static bool allocate(struct problem *problem)
+static bool allocate_contacts(struct problem *problem)
 {
     size_t n = problem->contact_count;
     problem->sides = arena_reserve(problem->arena, n, sizeof *problem->sides); /* large */
@@ -362,7 +362,7 @@ enum percuss_status placement_find_rates(struct problem *problem, struct fault *
 enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
                                    struct fault *fault)
 {
-    if (!allocate(problem))
+    if (!allocate_contacts(problem))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = find_bodies(problem, catalogue, fault);
     for (size_t i = 0; !status && i < problem->contact_count; i++) {

@@ -28,7 +28,7 @@ double outcome_restitution(const struct problem *problem, const struct impact_ou
 }
 
 /* A blow that nothing but the approach has energy for, solved to its end. */
-static bool is_plain_blow(const struct problem *problem, const struct impact_outcome *outcome)
+static bool is_plain_impact(const struct problem *problem, const struct impact_outcome *outcome)
 {
     const struct contact_side *sides = problem->sides[0];
     return problem->contact_count == 1 && problem->impulse_compression[0] > 0.0 &&
@@ -40,11 +40,11 @@ static bool is_plain_blow(const struct problem *problem, const struct impact_out
 double outcome_range(const struct problem *problem, const struct impact_outcome *outcome)
 {
     /* from 0 to 1, of which this answer is somewhere */
-    if (is_plain_blow(problem, outcome)) {
+    if (is_plain_impact(problem, outcome)) {
         double e = outcome_restitution(problem, outcome, 0);
         return fmax(e, 1.0 - e);
     }
-    /* from -1 to 1, or to what they are */
+    /* from -1 to 1, or to the largest */
     double most = 1.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         most = fmax(most, outcome_restitution(problem, outcome, c));
@@ -52,7 +52,7 @@ double outcome_range(const struct problem *problem, const struct impact_outcome 
 }
 
 /* The sub-impacts of a track that are listed. */
-static size_t listed(const struct track *track)
+static size_t track_listed(const struct track *track)
 {
     return track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
 }
@@ -61,7 +61,7 @@ double outcome_peak_force(const struct impact_outcome *outcome, size_t contact)
 {
     const struct track *track = &outcome->tracks[contact];
     double largest = 0.0;
-    for (size_t i = 0; i < listed(track); i++)
+    for (size_t i = 0; i < track_listed(track); i++)
         largest = fmax(largest, track->list[i].peak_force);
     return largest;
 }
@@ -70,7 +70,7 @@ double outcome_deepest(const struct impact_outcome *outcome, size_t contact)
 {
     const struct track *track = &outcome->tracks[contact];
     double largest = 0.0;
-    for (size_t i = 0; i < listed(track); i++)
+    for (size_t i = 0; i < track_listed(track); i++)
         largest = fmax(largest, track->list[i].max_indentation);
     return largest;
 }
@@ -80,7 +80,7 @@ double outcome_rebound(const struct problem *problem, const struct impact_outcom
 {
     const struct track *track = &outcome->tracks[contact];
     double back = 0.0;
-    for (size_t i = 0; i < listed(track); i++)
+    for (size_t i = 0; i < track_listed(track); i++)
         back += track->list[i].impulse - track->list[i].compression_impulse;
     double compression = problem->impulse_compression[contact];
     return compression > 0.0 ? fabs(back) / compression : 0.0;
@@ -129,7 +129,7 @@ static size_t same_group(const struct impact_outcome *outcome, const struct impa
 }
 
 /* The modes of a solution, as a scene without contacts: motions move freely by it. */
-static struct scene modes_of(const struct impact_outcome *outcome)
+static struct scene outcome_modes(const struct impact_outcome *outcome)
 {
     return (struct scene){.groups = outcome->groups, .group = outcome->group};
 }
@@ -138,7 +138,7 @@ static struct scene modes_of(const struct impact_outcome *outcome)
 static bool find_motion(const struct impact_outcome *outcome, double time, struct arena *arena,
                         struct motion *motion)
 {
-    const struct scene modes = modes_of(outcome);
+    const struct scene modes = outcome_modes(outcome);
     *motion = outcome->motion;
     if (outcome->window >= time)
         return true;
@@ -149,11 +149,11 @@ static bool find_motion(const struct impact_outcome *outcome, double time, struc
     return true;
 }
 
-/* Takes from a motion what it has of the stated one. False: out of memory. */
+/* Subtracts the free motion of the stated start from a motion. False: out of memory. */
 static bool take_stated(const struct impact_outcome *outcome, double time, struct arena *arena,
                         struct motion *motion)
 {
-    const struct scene modes = modes_of(outcome);
+    const struct scene modes = outcome_modes(outcome);
     struct motion free;
     struct motion forced = *motion;
     if (!motion_create(&free, &modes, arena) || !motion_create(motion, &modes, arena))
@@ -169,8 +169,8 @@ static bool take_stated(const struct impact_outcome *outcome, double time, struc
 }
 
 /* Energy of the difference of the modes of two groups, in motion. */
-static double difference(const struct scene_group *group, size_t count, const double *const q[2],
-                         const double *const v[2])
+static double vibration_difference(const struct scene_group *group, size_t count,
+                                   const double *const q[2], const double *const v[2])
 {
     double squares = 0.0;
     for (size_t k = 0; k < count; k++) {
@@ -207,8 +207,8 @@ void outcome_widen_vibration(const struct problem *problem, const struct impact_
                                                           : group->count;
         if (count > 0)
             sum[group->body] +=
-                difference(group, count, (const double *[]){ends[0].q[g], ends[1].q[h]},
-                           (const double *[]){ends[0].v[g], ends[1].v[h]});
+                vibration_difference(group, count, (const double *[]){ends[0].q[g], ends[1].q[h]},
+                                     (const double *[]){ends[0].v[g], ends[1].v[h]});
     }
     for (size_t g = 0; g < a->groups; g++)
         energy[a->group[g].body] = fmax(energy[a->group[g].body], sum[a->group[g].body]);
@@ -219,7 +219,7 @@ double outcome_impulse_scale(const struct problem *problem, const struct impact_
 {
     const struct track *track = &outcome->tracks[contact];
     double compressed = 0.0;
-    for (size_t i = 0; i < listed(track); i++)
+    for (size_t i = 0; i < track_listed(track); i++)
         compressed += track->list[i].compression_impulse;
     return fmax(problem->impulse_compression[contact], compressed);
 }

@@ -1,34 +1,34 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a solution says in the terms of its problem. */
+/* Quantities of a solution in the terms of its problem. */
 #ifndef PERCUSS_SOLVE_OUTCOME_H
 #define PERCUSS_SOLVE_OUTCOME_H
 
 #include "impact/impact.h"
 #include "solve/problem.h"
 
-/* Whether it ended by itself: nothing that vibration does can follow. */
+/* Whether it ended by itself: vibration cannot cause another contact. */
 bool outcome_is_complete(const struct impact_outcome *outcome);
 
 /* Whether nothing was solved: the effort was spent before any force. */
 bool outcome_is_unsolved(const struct problem *problem, const struct impact_outcome *outcome);
 
-/* Restitution of a contact, which of what is unsolved says nothing; NAN where the compression
+/* Restitution of a contact, meaningless where outcome_is_unsolved; NAN where the compression
  * impulse is 0: Eq. (6). */
 double outcome_restitution(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
-/* How far a restitution can be from the true one: of one contact of bodies at rest in themselves,
- * which have separated, that is from 0 to 1; else the width from no impulse (-1) to a full rebound,
- * or to what they are. */
+/* Largest possible error of a restitution: a single contact of bodies that do not vibrate at first,
+ * separated at the end, has one from 0 to 1; else the width from no impulse (-1) to a full rebound,
+ * or to the largest restitution. */
 double outcome_range(const struct problem *problem, const struct impact_outcome *outcome);
 
 /* Largest force (N) and indentation (m) of a contact's listed sub-impacts. */
 double outcome_peak_force(const struct impact_outcome *outcome, size_t contact);
 double outcome_deepest(const struct impact_outcome *outcome, size_t contact);
 
-/* Restitution that what follows the largest indentations makes. */
+/* Restitution by the impulses after the largest indentations alone. */
 double outcome_rebound(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t contact);
 
@@ -44,27 +44,26 @@ struct outcome_difference outcome_compare(const struct problem *problem,
 void outcome_widen_impulses(const struct problem *problem, const struct impact_outcome *a,
                             const struct impact_outcome *b, double *change);
 
-/* Raises each body's energy (J) to that of the difference between the two of what the forces have
- * made of its vibration, by the modes that both have. */
+/* Raises each body's energy (J) to that of the difference between the vibrations that the forces
+ * caused in the two solutions, by the modes that both have. */
 void outcome_widen_vibration(const struct problem *problem, const struct impact_outcome *a,
                              const struct impact_outcome *b, double *energy);
 
-/* Impulse that the shares of a contact's restitution are of, N s: that which stops its approach, or
- * what has compressed it where that is more, by way of others. */
+/* Reference impulse of a contact's restitution, N s: the one that stops its approach, or the larger
+ * one that compressed it by way of other contacts. */
 double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,
                              size_t contact);
 
-/* Share of the energy that a solution gains or loses. What acceleration takes may leave next to
- * nothing available: the approach counts too. */
+/* Share of the energy that a solution gains or loses: of the available energy, or of the approach's
+ * where acceleration leaves less than that. */
 double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome);
 
-/* Whether the energy closes to a share of what is available. What acceleration takes may leave next
- * to nothing of that: what is rounding of the approach's closes too. */
+/* Whether the energy closes to a share of the available energy, or to rounding of the approach's
+ * where acceleration leaves next to nothing available. */
 bool outcome_energy_closes(const struct problem *problem, const struct impact_outcome *outcome,
                            double share);
 
-/* More of its energy no solution may gain or lose: an answer that is wrong by half a percent of e.
- */
+/* Largest share of its energy that a solution may gain or lose: an error of half a percent of e. */
 static const double OUTCOME_WORST_DEFECT = 0.01;
 
 /* Whether a solution with that defect is one at all. */

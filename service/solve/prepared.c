@@ -17,10 +17,9 @@
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
 enum { OCTAVES = 11 };
 enum { BUCKETS = 256, ROUNDING = 8 };
-/* Bodies with parameters of a request's own that are kept: a calibration comes back to a few. */
+/* Cached bodies with parameters of a request's own: a calibration comes back to a few. */
 enum { MOST_VARIED = 32 };
-/* Parts of groups that are kept: a body is hit at few places again and again, or never twice at
- * one. */
+/* Cached parts of groups: a body is hit at few places repeatedly, or never twice at one. */
 enum { MOST_PARTS = 8 };
 
 /* Stands for all modes from index `first` on. */
@@ -43,11 +42,11 @@ struct entry {
     struct prepared_family *families[BODY_MOST_FAMILIES];
     struct remainder *remainders[BODY_MOST_FAMILIES];
     struct radiation *radiation;
-    bool asked[OCTAVES];     /* for the compliance beside it */
+    bool asked[OCTAVES];     /* `matched` is computed */
     double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
 
-/* Contacts whose ellipse is kept: those of a scene, and of some scenes asked by turns. */
+/* Cached contact ellipses: enough for a scene, or for some scenes asked by turns. */
 enum { CONTACTS = 16 };
 
 /* A box that a scene may use. */
@@ -69,9 +68,9 @@ struct prepared_parts {
 };
 
 struct prepared_cache {
-    struct ritz_store *boxes; /* where those held come from; NULL: none was asked for */
+    struct ritz_store *boxes; /* source of those held; NULL: none is in use yet */
     struct held *held;
-    struct hertz_contact contacts[CONTACTS]; /* by what they are made of; all zero: none */
+    struct hertz_contact contacts[CONTACTS]; /* by a hash of the curvatures; all zero: none */
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
@@ -79,11 +78,11 @@ struct prepared_cache {
     struct prepared_parts parts;
 };
 
-/* At one load, of the modes up to some. */
+/* Participations of the first modes in one load. */
 struct participation_row {
     struct family_load load; /* the key, to the last byte */
     size_t known;            /* modes; 0: there is no such load yet */
-    unsigned long used;      /* when it was asked of last */
+    unsigned long used;      /* count of requests at its last use */
     double *shape;           /* [modes] */
 };
 
@@ -131,7 +130,7 @@ static struct participation_row *find_participations(struct participations *cach
     return NULL;
 }
 
-/* For that load, in place of the one that was not asked of for longest. */
+/* A row for that load, in place of the least recently used one. */
 static struct participation_row *take_participations(struct participations *cached,
                                                      const struct family_load *load)
 {
@@ -153,7 +152,7 @@ void participations_get(struct participations *cached, const struct body *body,
         return;
     struct participation_row *row = find_participations(cached, load);
     size_t wanted = which[count - 1] + 1;
-    /* nobody pays for modes before those that are asked for */
+    /* modes before the requested ones are not computed for them */
     if (which[0] > (row ? row->known : 0)) {
         modal_participations(body, modes, which, count, load, shape);
         return;
@@ -282,7 +281,7 @@ static void entry_clear(struct entry *entry)
 }
 
 /* Forgets all bodies, or only the varied ones. */
-static void forget(struct prepared_cache *cache, bool only_varied)
+static void forget_bodies(struct prepared_cache *cache, bool only_varied)
 {
     parts_clear(&cache->parts);
     for (size_t b = 0; b < BUCKETS; b++) {
@@ -328,7 +327,7 @@ void prepared_cache_free(struct prepared_cache *cache)
     release_boxes(cache);
     ritz_store_free(cache->boxes);
     free_retired(cache);
-    forget(cache, false);
+    forget_bodies(cache, false);
     free(cache);
 }
 
@@ -339,10 +338,10 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision)
     if (cache->parts.count > MOST_PARTS)
         parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
-        forget(cache, true);
+        forget_bodies(cache, true);
     if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
         return;
-    forget(cache, false);
+    forget_bodies(cache, false);
     snprintf(cache->revision, sizeof cache->revision, "%s", revision);
 }
 
@@ -479,7 +478,7 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2])
 {
-    /* where such a one would be */
+    /* its place by a hash of the curvatures */
     uint64_t bits[2];
     memcpy(bits, curvature, sizeof bits);
     uint64_t mixed = (bits[0] ^ bits[1] * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu;

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Prepared bodies: what depends on the body and on the number of modes, but not on the request.
- * A hit and a miss give the same bits: every mode is computed independently of how many there are.
- */
+/* Cache of prepared bodies: quantities that depend on the body and on the number of modes, but not
+ * on the request. A hit and a miss give the same bits: every mode is computed independently of
+ * their number. */
 #ifndef PERCUSS_SOLVE_PREPARED_H
 #define PERCUSS_SOLVE_PREPARED_H
 
@@ -24,7 +24,7 @@ struct prepared_family {
     struct modal_family *modes;
     size_t group_count;
     struct prepared_group groups[2];
-    struct participations *participations; /* at the loads asked of last */
+    struct participations *participations; /* at the last loads */
     struct prepared_family *next_retired;
 };
 
@@ -46,8 +46,8 @@ struct prepared_cache;
 struct prepared_cache *prepared_cache_create(void);
 void prepared_cache_free(struct prepared_cache *cache);
 
-/* Begins a solve: forgets what no scene uses any more, and everything unless the cache already
- * belongs to this revision. */
+/* Begins a solve: frees entries that no scene uses any more, and all entries unless the cache
+ * already belongs to this revision. */
 void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 
 /* Forgets one body: the next one of that id is another. No scene may use it any more. */
@@ -61,8 +61,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   size_t count);
 
 /* Of a family's group the modes with the indices which[0 .. count - 1], ascending, as a group of
- * their own, kept for a few of those asked for last. It is valid as long as the family. NULL: out
- * of memory. */
+ * their own; the last few are cached. It is valid as long as the family. NULL: out of memory. */
 const struct prepared_group *prepared_part_get(struct prepared_cache *cache,
                                                const struct prepared_group *whole,
                                                const size_t *which, size_t count);
@@ -71,7 +70,7 @@ const struct prepared_group *prepared_part_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            size_t family, size_t first);
 
-/* Frequencies of prepared_radiation_get in an octave: fine enough to come within a tenth of what is
+/* Frequencies of prepared_radiation_get in an octave: fine enough to come within a tenth of the one
  * wanted, coarse enough that few are ever made. */
 static const double PREPARED_STEPS = 4.0;
 
@@ -80,7 +79,7 @@ static const double PREPARED_STEPS = 4.0;
 struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const struct body *body,
                                            int step);
 
-/* hertz_contact_make; of the last ones what an ellipse takes to find is kept. */
+/* As hertz_contact_make; the ellipses of the last contacts are cached. */
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2]);
 
@@ -91,7 +90,7 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_s
                                      const struct ritz_shape *shape, double poisson,
                                      struct pace *pace);
 
-/* ritz_flexibility of one of those; of the last places it is kept. */
+/* As ritz_flexibility, of a vibration from prepared_ritz_get; that of the last places is cached. */
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
                                  int side, const double point[3]);
 

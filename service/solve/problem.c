@@ -17,7 +17,7 @@ struct problem *problem_create(const struct solve_request *request, struct prepa
     problem->tolerance = solve_tolerance(&request->options);
     problem->body_count = request->body_count;
     problem->contact_count = request->contact_count;
-    /* what there is of each body */
+    /* arrays over the bodies */
     size_t bodies = request->body_count;
     problem->bodies = arena_take(arena, bodies, sizeof *problem->bodies);
     problem->poses = arena_take(arena, bodies, sizeof *problem->poses);

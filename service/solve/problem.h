@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* A request in the terms of mechanics: bodies found, contacts placed on their surfaces, W, gap
- * rates, contact laws and what is in series with them. formulation.h makes it; solutions only read
- * it. */
+ * rates, contact laws and the compliance in series with them. formulation.h makes and revises it;
+ * all others only read it. */
 #ifndef PERCUSS_SOLVE_PROBLEM_H
 #define PERCUSS_SOLVE_PROBLEM_H
 
@@ -37,14 +37,14 @@ struct contact_model {
     const struct contact_table_remedy *remedy; /* of tables that are missing; NULL: none is known */
 };
 
-/* What is in series with them, see contact_model.h. */
+/* The compliance in series with them, see contact_model.h. */
 struct compliance {
     enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
     double *series;               /* [contact], m/N; 0: half-space; NULL: the same, none chosen */
     double (*sides)[2];           /* [contact]: the parts of either body in it */
     bool by_speed;                /* a part depends on the speed of approach: a sphere's */
-    bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
-                                     is too stiff for them, or too many share them */
+    bool still;                   /* without waves that leave through half-spaces (radiation.h): a
+                                     contact is too stiff for them, or too many share them */
     bool bare;                    /* without that of beams' sides: a contact is too stiff for it */
     size_t most;                  /* modes of a mesh that may take part: fewer leave more of its
                                      flexibility in series; 0: all */
@@ -52,8 +52,8 @@ struct compliance {
 };
 
 struct problem {
-    const struct solve_request *request; /* what is asked; borrowed as the next two */
-    struct prepared_cache *cache;        /* what is prepared of the bodies */
+    const struct solve_request *request; /* borrowed as the next two */
+    struct prepared_cache *cache;        /* prepared bodies */
     struct arena *arena;                 /* of all arrays, and of the scenes made of it */
     double tolerance;                    /* on the restitution */
     size_t body_count, contact_count;

@@ -12,7 +12,8 @@
 /* Effect on the restitution, in tolerances, below which waves are left out. */
 static const double NEGLIGIBLE = 0.05;
 /* Share of a contact's compliance that the oscillator may take over: from 0.5 on contacts do not
- * bear it (contact_bears), a blow harder than the rigid masses' tell needs the other half. */
+ * bear it (contact_bears); an impact harder than the rigid masses' estimate needs the other
+ * half. */
 static const double BORNE = 0.25;
 /* Frequency times duration of the contact that is fast enough; see ERROR. */
 static const double FAST = 128.0;
@@ -47,14 +48,14 @@ static bool is_half_space(const struct problem *problem, size_t body)
 struct collision {
     double stiffness; /* the largest, N/m */
     double duration;  /* twice the shorter of approach and rebound, s */
-    double loss;      /* twice what a half-space's waves take of the restitution */
+    double loss;      /* twice the restitution's loss to a half-space's waves */
     double patch;     /* contact radius, m */
 };
 
 /* An elastic half of a collision, of the energy 0.4 F d, has int F'^2 dt = 0.35 K^2 v d (see
  * mode_choice.c). The rebound from a dent is another one than the approach, of energy e^2. */
-static struct collision collide(const struct problem *problem, const struct scene *scene,
-                                size_t contact, double rate, double lag)
+static struct collision radiation_collide(const struct problem *problem, const struct scene *scene,
+                                          size_t contact, double rate, double lag)
 {
     struct contact_law law = scene->laws[contact];
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
@@ -64,7 +65,7 @@ static struct collision collide(const struct problem *problem, const struct scen
     contact_law_force(&law, scale.indentation, &loading);
     if (scale.indentation > contact_law_limit(&law))
         contact_law_yield(&law, scale.indentation);
-    /* the rebound, from what springs back */
+    /* the rebound, by the elastic indentation */
     double back = fmin(scale.indentation, contact_law_limit(&law));
     double unloading = back < scale.indentation ? contact_law_unloading(&law) : loading;
     double e = sqrt(back / scale.indentation);
@@ -80,8 +81,8 @@ static struct collision collide(const struct problem *problem, const struct scen
     };
 }
 
-/* The rate whose energy a contact must stop, with what a pressing acceleration adds: twice its load
- * is borne at most. */
+/* Rate equal in energy to the approach and a pressing acceleration together: at most twice the
+ * acceleration's static load acts. */
 static double pressed_rate(const struct scene *scene, size_t contact, double rate)
 {
     const struct contact_law *law = &scene->laws[contact];
@@ -92,8 +93,8 @@ static double pressed_rate(const struct scene *scene, size_t contact, double rat
     return sqrt(rate * rate + 2.0 * pressing * law->operations->indentation(law, load));
 }
 
-/* The fastest that a contact of a group can be driven: by what all of them must stop (a heavy ball
- * on a light one on a wall). */
+/* Fastest rate that the energy of all approaches of a group can give one contact (a heavy ball on a
+ * light one on a wall). */
 static double driven_rate(const struct problem *problem, size_t contact, double rate)
 {
     size_t n = problem->contact_count;
@@ -103,16 +104,17 @@ static double driven_rate(const struct problem *problem, size_t contact, double 
     return fmax(rate, sqrt(2.0 * energy * problem->w[contact * (n + 1)]));
 }
 
-/* The stiffness is that of rigid masses: what vibration takes from the first blow may come back. */
-static void look_at(const struct problem *problem, const struct scene *scene, size_t contact,
-                    double rate, struct radiator *radiator)
+/* The stiffness is that of rigid masses: energy that vibration takes from the first impact may come
+ * back. */
+static void add_contact(const struct problem *problem, const struct scene *scene, size_t contact,
+                        double rate, struct radiator *radiator)
 {
     struct scene rigid = *scene;
     rigid.groups = 0;
     double lag = radiator->waves.lag;
     double driven = driven_rate(problem, contact, rate);
-    struct collision collision = collide(problem, scene, contact, rate, lag);
-    double hardest = collide(problem, &rigid, contact, driven, lag).stiffness;
+    struct collision collision = radiation_collide(problem, scene, contact, rate, lag);
+    double hardest = radiation_collide(problem, &rigid, contact, driven, lag).stiffness;
     radiator->stiffness = fmax(radiator->stiffness, hardest);
     radiator->duration = fmin(radiator->duration, collision.duration);
     radiator->loss = fmax(radiator->loss, collision.loss);
@@ -128,12 +130,12 @@ static struct radiator find_radiator(const struct problem *problem, const struct
     radiator.waves = half_space_waves_of(&problem->bodies[body]->material);
     for (size_t c = 0; c < scene->contacts; c++)
         if (problem->sides[c][0].body == body || problem->sides[c][1].body == body)
-            look_at(problem, scene, c, pressed_rate(scene, c, rate), &radiator);
+            add_contact(problem, scene, c, pressed_rate(scene, c, rate), &radiator);
     return radiator;
 }
 
-/* How much of their waves two contacts share: J0(k r), spread over the wave numbers of a pulse
- * whose square mean is that of Rayleigh's wave at half a period per contact. */
+/* Share of their waves that two contacts have in common: J0(k r), spread over the wave numbers of a
+ * pulse; their mean square is that of Rayleigh's wave at half a period per contact. */
 static double shared(const struct problem *problem, const struct radiator *radiator, size_t i,
                      size_t j)
 {
@@ -147,7 +149,7 @@ static double shared(const struct problem *problem, const struct radiator *radia
     return share > FAR ? share : 0.0;
 }
 
-/* What a contact feels of all waves that the contacts on its half-space make, in its own. */
+/* Waves of all contacts on a half-space as one of them feels them, relative to its own. */
 static double felt(const struct problem *problem, const struct radiator *radiator, size_t i)
 {
     double sum = 0.0;
@@ -157,7 +159,7 @@ static double felt(const struct problem *problem, const struct radiator *radiato
 }
 
 /* Cholesky's factor of the shares, row-major lower triangle: they are positive semidefinite but for
- * what FAR took. */
+ * shares below FAR, which are 0. */
 static void factor_shares(const struct problem *problem, const struct radiator *radiator,
                           double *factor)
 {
@@ -174,9 +176,9 @@ static void factor_shares(const struct problem *problem, const struct radiator *
 }
 
 /* One more group: an oscillator that the contacts excite by a column of the factor. */
-static bool add_group(struct arena *arena, const struct radiator *radiator, struct oscillators *set,
-                      const double *factor, size_t column, struct assembly *assembly,
-                      double *residual)
+static bool radiation_add_group(struct arena *arena, const struct radiator *radiator,
+                                struct oscillators *set, const double *factor, size_t column,
+                                struct assembly *assembly, double *residual)
 {
     size_t n = assembly->scene.contacts;
     double omega = set->omega[0];
@@ -219,8 +221,8 @@ static int frequency_step(const struct radiator *radiator, double together)
     return (int)fmin(ceil(PREPARED_STEPS * log2(fast)), floor(PREPARED_STEPS * log2(most)));
 }
 
-/* What is left out of the radiated share: the oscillator's own error, and what the size of the
- * contact changes of a point's waves. */
+/* Error of the radiated share: the oscillator's own, and that of a point's waves for a contact of
+ * finite size. */
 static double left_out(const struct radiator *radiator, double omega)
 {
     double angle = omega * radiator->duration;
@@ -247,7 +249,7 @@ static bool add_radiator(const struct problem *problem, const struct radiator *r
         return false;
     /* a group of it for each column of the factor */
     for (size_t k = 0; k < n; k++)
-        if (!add_group(problem->arena, radiator, set, factor, k, assembly, residual))
+        if (!radiation_add_group(problem->arena, radiator, set, factor, k, assembly, residual))
             return false;
     /* e^2 = 1 - share */
     assembly->radiated_error =
@@ -262,7 +264,7 @@ bool radiation_add(const struct problem *problem, struct assembly *assembly, dou
     for (size_t b = 0; b < problem->body_count; b++) {
         if (!is_half_space(problem, b))
             continue;
-        /* what waves would take of the contacts on it */
+        /* the waves of the contacts on it */
         struct radiator radiator = find_radiator(problem, &scene, b);
         if (radiator.count == 0)
             continue;
@@ -272,7 +274,7 @@ bool radiation_add(const struct problem *problem, struct assembly *assembly, dou
                 return false;
             continue;
         }
-        /* omitted viscosity where it does not, or where contacts do not bear them */
+        /* omitted viscosity where it does not, or where contacts do not bear oscillators */
         for (size_t i = 0; i < radiator.count; i++)
             assembly->omitted[radiator.contact[i]].viscosity +=
                 radiator.waves.lag * felt(problem, &radiator, i);

@@ -13,11 +13,11 @@
 
 #include "solve/assembly.h"
 
-/* Adds the oscillators of all half-spaces to an assembly whose modes are there, and -c to its
- * residual flexibility; contacts on one half-space closer than its waves are long share them. Where
- * the loss matters less than a twentieth of the tolerance it is counted as omitted viscosity
- * instead, and all of it where problem->compliance.still. Sets assembly->radiated_error. False:
- * out of memory. */
+/* Adds the oscillators of all half-spaces to an assembly with its modes, and -c to its residual
+ * flexibility; contacts on one half-space closer than its waves are long share them. Where the
+ * loss matters less than a twentieth of the tolerance it is counted as omitted viscosity instead,
+ * and all of it where problem->compliance.still. Sets assembly->radiated_error. False: out of
+ * memory. */
 bool radiation_add(const struct problem *problem, struct assembly *assembly, double *residual);
 
 /* Whether such oscillators are among the scene's groups. */

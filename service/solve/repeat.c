@@ -14,9 +14,9 @@
 struct repeat {
     struct prepared_cache *cache;
     struct arena problem_memory, run_memory;
-    struct problem *problem; /* in problem_memory; NULL: none is kept */
+    struct problem *problem; /* in problem_memory; NULL: none */
     struct solution solution;
-    bool lasting;             /* nothing in it depends on the blow */
+    bool lasting;             /* it holds for other velocities, too */
     struct warnings warnings; /* of the last solution */
 };
 
@@ -67,9 +67,9 @@ static void read_track(const struct problem *problem, const struct impact_outcom
         outcome->significant += !track->list[i].negligible;
 }
 
-/* What the solution says, unless it does not keep the energy. */
-static enum percuss_status judge(struct repeat *repeat, size_t contact,
-                                 struct repeat_outcome *outcome, struct fault *fault)
+/* Reads the solution; refuses one that does not keep the energy. */
+static enum percuss_status repeat_judge(struct repeat *repeat, size_t contact,
+                                        struct repeat_outcome *outcome, struct fault *fault)
 {
     const struct problem *problem = repeat->problem;
     const struct impact_outcome *solved = &repeat->solution.outcome;
@@ -85,7 +85,7 @@ static enum percuss_status judge(struct repeat *repeat, size_t contact,
     return outcome->status;
 }
 
-/* Whether another blow on the same bodies is the same problem but for its rates: it chooses the
+/* Whether another impact of the same bodies is the same problem but for its rates: they decide the
  * laws of bodies that yield, the waves of half-spaces, a sphere's matched compliance and whether a
  * block or cylinder vibrates (vibration.h). */
 static bool lasts(const struct problem *problem)
@@ -98,8 +98,8 @@ static bool lasts(const struct problem *problem)
     return lasts;
 }
 
-static enum percuss_status begin(struct repeat *repeat, const struct solve_context *context,
-                                 const struct solve_request *request, struct fault *fault)
+static enum percuss_status repeat_begin(struct repeat *repeat, const struct solve_context *context,
+                                        const struct solve_request *request, struct fault *fault)
 {
     repeat->problem = NULL;
     repeat->solution.scene = NULL;
@@ -116,32 +116,32 @@ static enum percuss_status begin(struct repeat *repeat, const struct solve_conte
     return PERCUSS_OK;
 }
 
-/* The problem kept, for other velocities. */
-static enum percuss_status go_on(struct repeat *repeat, const struct solve_request *request,
-                                 struct fault *fault)
+/* Uses the last problem for other velocities. */
+static enum percuss_status repeat_go_on(struct repeat *repeat, const struct solve_request *request,
+                                        struct fault *fault)
 {
     repeat->problem->request = request;
     return placement_find_rates(repeat->problem, fault);
 }
 
 /* By a model, or with NULL by a search. */
-static enum percuss_status find(struct repeat *repeat, const struct solve_context *context,
-                                const struct solve_request *request,
-                                const struct solution_model *model, bool same_scene,
-                                struct fault *fault)
+static enum percuss_status repeat_find(struct repeat *repeat, const struct solve_context *context,
+                                       const struct solve_request *request,
+                                       const struct solution_model *model, bool same_scene,
+                                       struct fault *fault)
 {
-    /* the problem kept, or a new one */
+    /* the last problem, or a new one */
     struct pace pace = {.watch = &context->watch};
-    bool kept = same_scene && repeat->problem && repeat->lasting;
+    bool reuse = same_scene && repeat->problem && repeat->lasting;
     arena_reset(&repeat->run_memory);
-    enum percuss_status status =
-        kept ? go_on(repeat, request, fault) : begin(repeat, context, request, fault);
+    enum percuss_status status = reuse ? repeat_go_on(repeat, request, fault)
+                                       : repeat_begin(repeat, context, request, fault);
     if (!status)
         status = solution_find(&repeat->solution, repeat->problem, repeat->problem->tolerance,
                                model, &repeat->run_memory, &pace, fault);
-    /* what this blow decided is not for the next one */
+    /* a revision by this impact does not hold for the next one */
     repeat->lasting = repeat->lasting && !repeat->solution.revised;
-    /* a solution that lacks something for want of memory is none, whatever it says */
+    /* a solution that lacked memory is none, whatever its status */
     if (repeat->problem_memory.lacks || repeat->run_memory.lacks) {
         repeat->problem = NULL;
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -156,9 +156,9 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct solve_cont
 {
     const struct solution *solution = &repeat->solution;
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    outcome->status = find(repeat, context, request, NULL, false, fault);
+    outcome->status = repeat_find(repeat, context, request, NULL, false, fault);
     if (!outcome->status) {
-        judge(repeat, contact, outcome, fault);
+        repeat_judge(repeat, contact, outcome, fault);
         outcome->error = solution->steps.restitution + solution->modes.restitution;
         if (model)
             *model = solution_model_of(solution);
@@ -173,8 +173,8 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_conte
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    outcome->status = find(repeat, context, request, model, same_scene, fault);
-    return outcome->status ? outcome->status : judge(repeat, contact, outcome, fault);
+    outcome->status = repeat_find(repeat, context, request, model, same_scene, fault);
+    return outcome->status ? outcome->status : repeat_judge(repeat, contact, outcome, fault);
 }
 
 const struct warnings *repeat_warnings(const struct repeat *repeat)

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Many impacts with one model: the modes and steps are fixed once by the accuracy search, then
- * every impact is one run without an error estimate. Same request and model, same bits, whatever
- * was solved before and by whom. */
+/* Many impacts with one model: the accuracy search fixes the modes and steps once, then every
+ * impact is one run without an error estimate. Same request and model, same bits, on any worker and
+ * after any other solve. */
 #ifndef PERCUSS_SOLVE_REPEAT_H
 #define PERCUSS_SOLVE_REPEAT_H
 
@@ -31,11 +31,11 @@ struct repeat;
 struct repeat *repeat_create(void); /* NULL: out of memory */
 void repeat_free(struct repeat *repeat);
 
-/* The body of that id is another one from now on. */
+/* Forgets the body of that id: another one has it from now on. */
 void repeat_forget(struct repeat *repeat, const char *id);
 
-/* Solves by the accuracy search; fills `model` (NULL: not wanted) and what `contact` did. Returns
- * outcome->status; refusals carry a message. The request must have passed solve(). */
+/* Solves by the accuracy search; fills `model` (NULL: not wanted) and the outcome of `contact`.
+ * Returns outcome->status; refusals carry a message. The request must have passed solve(). */
 enum percuss_status repeat_search(struct repeat *repeat, const struct solve_context *context,
                                   const struct solve_request *request, size_t contact,
                                   struct solution_model *model, struct repeat_outcome *outcome,
@@ -49,7 +49,7 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_conte
                                  const struct solution_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault);
 
-/* What is to be said of the last solution that had a result. */
+/* Warnings of the last solution that had a result. */
 const struct warnings *repeat_warnings(const struct repeat *repeat);
 
 #endif

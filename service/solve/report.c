@@ -79,7 +79,7 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
     for (size_t b = 0; b < problem->body_count; b++) {
         double velocity[3] = {0.0, 0.0, 0.0};
         double angular[3] = {0.0, 0.0, 0.0};
-        /* what the impulses change, body frame */
+        /* changes by the impulses, body frame */
         for (size_t c = 0; c < problem->contact_count; c++) {
             for (int which = 0; which < 2; which++) {
                 const struct contact_side *side = &problem->sides[c][which];
@@ -334,7 +334,7 @@ static void explain_modes(const struct problem *problem, const struct assembly *
 static void fill_model(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
-    /* what was used */
+    /* the models in use */
     result->contact_model = contact_model_used(problem)->model;
     result->compliance = problem->compliance.used;
     result->method = problem->request->options.method;
@@ -353,7 +353,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
                     solution->start);
     if (problem->compliance.reason[0])
         text_format(&reason, "; half-space: %s", problem->compliance.reason);
-    /* what it leaves out */
+    /* effects that it omits */
     result->omitted_error =
         solution->modes.restitution + assembly->radiated_error + validity_wave_loss(problem) +
         law_error_worst(problem, &solution->outcome) * largest_restitution(result) +
@@ -370,22 +370,22 @@ static const struct body *all_of_one(const struct problem *problem, const struct
     return NULL;
 }
 
-/* Why the estimated error is no smaller: of its larger part what ended the search, or else what
- * makes a small difference large. */
+/* Why the estimated error is no smaller: the end of the search for its larger part, or else the
+ * cause that amplifies small differences. */
 static const char *reason_of_error(const struct problem *problem, const struct solution *solution)
 {
     const struct assembly *assembly = solution->assembly;
     bool sequence = problem->contact_count > 1 || solution->outcome.tracks[0].count > 1;
     bool modes = solution->modes.restitution > solution->steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
-    /* what ended the search */
+    /* the end of the search */
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
     if (solution->tolerance_met)
         return "the states that the bodies begin from are as wrong as the answers that left them";
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
-    /* what limits the modes, or amplifies what they leave out */
+    /* the limit of the modes, or an amplified effect of the omitted ones */
     if (modes && omitted && problem->compliance.most > 0)
         return "more modes of the mesh would leave too negative a compliance for so stiff a "
                "contact";
@@ -404,12 +404,12 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     if (modes && problem->compliance.still)
         return "waves that leave through half-spaces are left out: a contact is too stiff for "
                "them, or too many share them";
-    /* or what amplifies */
+    /* or an amplification */
     return sequence ? "the sequence of sub-impacts amplifies small differences"
                     : "the search for more modes or shorter steps ended";
 }
 
-/* What solutions near an answer that does not meet its tolerance say of it. */
+/* Warns of the range of the solutions near an answer that does not meet its tolerance. */
 static void warn_range(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
@@ -432,7 +432,7 @@ static void warn_range(const struct problem *problem, const struct solution *sol
                 neighbours->low[widest], digits, neighbours->high[widest]);
 }
 
-/* Counts that they do not confirm. */
+/* Warns of counts that these solutions do not confirm. */
 static void warn_counts(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
@@ -449,7 +449,7 @@ static void warn_counts(const struct problem *problem, const struct solution *so
 static void fill_errors(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    /* errors, and what the speed does */
+    /* errors, and the derivative by the speed */
     result->restitution_time = solution->steps.restitution;
     result->restitution_modes = solution->modes.restitution;
     if (solution->start > 0.0)
@@ -460,7 +460,7 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     if (solution->start > 0.0)
         result->impulse_modes += solution->start * problem_largest_compression(problem);
     result->restitution_by_speed = solution->restitution_by_speed;
-    /* what was cut off for its effort was compared with nothing */
+    /* an answer cut off by its effort was compared with no other */
     double error = result->restitution_time + result->restitution_modes;
     result->tolerance_met = solution->tolerance_met &&
                             solution->outcome.end_reason != PERCUSS_END_LIMIT &&
@@ -542,12 +542,12 @@ void report_fill(const struct problem *problem, const struct solution *solution,
     fill_model(problem, solution, result);
     warn_dents(result);
     fill_end(solution, result);
-    /* where the models end */
+    /* limits of the models */
     struct warnings warnings;
     validity_find(problem, &solution->outcome, &warnings);
     validity_find_waves(problem, solution->assembly->radiated_error, &warnings);
     report_warnings(&warnings, result);
-    /* numbers that are no answer */
+    /* numbers outside all bounds */
     if (!outcome_keeps_energy(solution->steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,
@@ -612,7 +612,7 @@ static double velocity_along_normal(const struct solve_request *request, size_t 
     return dot3(at->normal, moving->velocity) + dot3(at->normal, turning);
 }
 
-/* How the two bodies share each contact. With the client's own W nobody knows. */
+/* Shares of the two bodies in each contact; unknown with the client's own W. */
 static bool trace_find_sides(const struct problem *problem, const struct assembly *assembly,
                              struct trace_sides *sides)
 {
@@ -641,7 +641,7 @@ static bool trace_find_sides(const struct problem *problem, const struct assembl
     return true;
 }
 
-/* What any solution may take; one that was cut off is cut off again. */
+/* Work allowed for the traced solution; an answer that was cut off is cut off again. */
 static double trace_work(const struct solution *solution)
 {
     double allowed = attempt_work_allowed(PERCUSS_METHOD_MODAL);
@@ -649,7 +649,7 @@ static double trace_work(const struct solution *solution)
     return solution->outcome.end_reason == PERCUSS_END_LIMIT ? fmin(taken, allowed) : allowed;
 }
 
-/* Where the effort did not do for all of it, and where the answer came from another method. */
+/* Warns where the effort ended the histories, and where the answer came from another method. */
 static void trace_warn(const struct problem *problem, const struct solution *solution,
                        const struct impact_outcome *again, struct solve_result *result)
 {

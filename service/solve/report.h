@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* From a solution to the words and numbers of the reply. */
+/* From a solution to the reply: contacts, bodies and their states after the impact, errors, reasons
+ * and warnings, and time histories. */
 #ifndef PERCUSS_SOLVE_REPORT_H
 #define PERCUSS_SOLVE_REPORT_H
 
@@ -14,13 +15,12 @@ struct start_error; /* start_error.h */
 void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result);
 
-/* Fills what the models may be wrong by, on the restitution, and what that makes in all with the
- * errors that are there: their sum, since modes and steps are no accidents, but not more than the
- * answer can be wrong by, `range`. `yield` is the part of `model` that metals of no stated yield
- * make. */
+/* Fills the error of the models, on the restitution, and its sum with the numerical errors that are
+ * already there (a sum, since errors of modes and steps are systematic), at most `range`, the
+ * largest possible error. `yield` is the part of `model` from metals without a stated yield. */
 void report_model_error(double model, double yield, double range, struct solve_result *result);
 
-/* What the bodies' new states are wrong by, from all errors of `result`. */
+/* Fills the errors of the bodies' new states, from all errors of `result`. */
 void report_state_errors(const struct problem *problem, const struct solution *solution,
                          const struct start_error *start, struct solve_result *result);
 
@@ -31,7 +31,7 @@ const struct body_state *state_after(const struct assembly *assembly,
                                      const struct impact_outcome *outcome,
                                      const struct problem *problem, size_t body);
 
-/* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
+/* Solves the answer's scene once more by the modal method, with a log of the forces, and sets
  * result->trace. That may take as much work as an answer, and the histories as much again: where it
  * is spent they end, with a warning. Warns where the answer came from another method and that
  * solution differs. Returns result->status, or INTERNAL or TIMEOUT with the message. */

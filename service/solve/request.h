@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What is asked of the solver: bodies by their ids, where they are and how they move, and where
- * they touch: percuss/fields.h says what the members mean. Units SI; conventions as at the top of
+/* The inputs of a solve. A request names bodies by their ids, with their poses, velocities and
+ * contacts; percuss/fields.h describes its members. Units SI; conventions as at the top of
  * idl/percuss_wire.idl. */
 #ifndef PERCUSS_SOLVE_REQUEST_H
 #define PERCUSS_SOLVE_REQUEST_H
@@ -15,7 +15,8 @@
 #include "model/body.h"
 #include "percuss/fields.h"
 
-/* The members that requests have on the wire, but for the texts that name a body's past. */
+/* The members that requests have on the wire, but for the texts that name a body's earlier
+ * state. */
 #define SOLVE_MEMBER(kind, name, ...)      SOLVE_MEMBER_##kind(name, __VA_ARGS__)
 #define SOLVE_MEMBER_NUMBER(name, ...)     double name;
 #define SOLVE_MEMBER_DEFAULTED(name, ...)  double name;
@@ -42,7 +43,7 @@ struct solve_options {
     PERCUSS_OPTION_FIELDS(SOLVE_MEMBER) /* the deadline is for the watch, the solver has no clock */
 };
 
-/* What of a contact's models may be shifted: force, compliance in series, stress of yield. */
+/* Shifts of a contact's models: force, compliance in series, stress of yield. */
 enum { SOLVE_SHIFT_FORCE, SOLVE_SHIFT_COMPLIANCE, SOLVE_SHIFT_YIELD, SOLVE_SHIFTS };
 
 struct solve_request {
@@ -51,14 +52,14 @@ struct solve_request {
     struct solve_contact contacts[PERCUSS_MAX_CONTACTS];
     const double *delassus; /* contact_count^2, row-major; NULL: the service's; borrowed */
     struct solve_options options;
-    double model_shift[SOLVE_SHIFTS]; /* of the models, in standard deviations of what they may be
-                                         wrong by (model_shift.h); 0: as they are */
+    double model_shift[SOLVE_SHIFTS]; /* of the models, in standard deviations of their errors
+                                         (model_shift.h); 0: as they are */
 };
 
-/* Horizon of who states none, s, or two longest periods where they are more: the sub-impacts of the
- * bodies of a bench are over by then. */
+/* Default horizon, s, or two longest periods where they are more: the sub-impacts of bodies on a
+ * bench are over by then. */
 static const double SOLVE_HORIZON = 0.020;
-/* Tolerance of who states none: what a measured restitution scatters by. */
+/* Default tolerance: the scatter of measured restitutions. */
 static const double SOLVE_TOLERANCE = 1e-3;
 
 struct contact_table_source; /* contact/law_table.h */

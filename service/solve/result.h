@@ -69,15 +69,15 @@ struct solve_contact_result {
     size_t sub_impact_count;              /* exact */
     size_t sub_impacts_listed;            /* at most PERCUSS_MAX_SUB_IMPACTS */
     const struct sub_impact *sub_impacts; /* in the workspace, until its next solve */
-    double impulse_error;                 /* N s, all that is known together */
-    double impulse_error_model;           /* what models have of it */
+    double impulse_error;                 /* N s, all known errors together */
+    double impulse_error_model;           /* the models' part of it */
 };
 
 struct solve_body_result {
     char id[PERCUSS_ID_SIZE];
     double velocity[3]; /* after; only with the service's own W */
     double angular_velocity[3];
-    double velocity_error, angular_velocity_error; /* m/s, rad/s, all that is known together */
+    double velocity_error, angular_velocity_error; /* m/s, rad/s, all known errors together */
     double vibration;                              /* J */
     unsigned modes;                                /* kept in the scene */
     bool rigid;
@@ -99,9 +99,9 @@ struct solve_result {
     double restitution_time, restitution_modes, impulse_time, impulse_modes;
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
-    double restitution_model, restitution_total; /* of the models; of all that is known */
+    double restitution_model, restitution_total; /* of the models; of all known errors */
     bool total_met;
-    double restitution_yield; /* what metals whose yield is not stated add to the total */
+    double restitution_yield; /* part of the total from metals without a stated yield */
     double tolerance;         /* on the restitution, as asked for */
     enum percuss_contact_model contact_model;
     enum percuss_compliance compliance;

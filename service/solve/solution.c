@@ -13,8 +13,8 @@
 static const double SPENT = 1e-3;
 /* Relative: so that the highest mode is below the cut that it gives. */
 static const double ROUNDING = 1e-12;
-/* Relative change of the speeds for a derivative, and the accuracy that it needs: what steps leave
- * of a restitution (refine_steps.c) changes it by 3e-4 of e over the speed then. */
+/* Relative change of the speeds for a derivative, and the accuracy that it needs: the steps' error
+ * (error/refinement.c) then changes it by 3e-4 of e over the speed. */
 static const double SPEED_STEP = 1e-5;
 static const double DERIVATIVE_ACCURACY = 1e-9;
 
@@ -60,10 +60,10 @@ static double distance_factor(const struct attempt_context *context, const struc
     return FACTOR_COMPARED * pow(3.0, OTHERS / others - 1.0);
 }
 
-/* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
- * than the tolerance. */
-static void widen(const struct attempt_context *context, const struct attempt *best, bool unknown,
-                  struct solution *solution)
+/* An answer that does not meet its tolerance may be any of the solutions near it: their distance is
+ * its error. An unknown error is no less than the tolerance. */
+static void solution_widen(const struct attempt_context *context, const struct attempt *best,
+                           bool unknown, struct solution *solution)
 {
     struct mode_error *modes = &solution->modes;
     double distance = neighbours_distance(context->neighbours, context->problem, &best->outcome);
@@ -77,8 +77,8 @@ static void widen(const struct attempt_context *context, const struct attempt *b
     }
 }
 
-/* Errors that are wider than what is possible. */
-static void bound(double range, double compression, double *restitution, double *impulse)
+/* Limits errors to the possible range. */
+static void solution_bound(double range, double compression, double *restitution, double *impulse)
 {
     if (*restitution > range) {
         *restitution = range;
@@ -86,9 +86,9 @@ static void bound(double range, double compression, double *restitution, double 
     }
 }
 
-/* What the searches found, in the terms of the answer. */
-static void conclude(const struct attempt_context *context, const struct attempt *best,
-                     struct solution *solution)
+/* Fills the answer and its errors from the best attempt. */
+static void solution_conclude(const struct attempt_context *context, const struct attempt *best,
+                              struct solution *solution)
 {
     /* the best attempt */
     solution->assembly = best->assembly;
@@ -98,11 +98,11 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->path = best->path;
     solution->step_accuracy = best->accuracy;
     solution->step_care = best->care;
-    /* what is cut off for its effort takes all that was left, but for a step */
+    /* an attempt cut off by its effort takes all that was left, but for a step */
     double allowed = attempt_work_allowed(context->problem->request->options.method);
     solution->spent = context->work < SPENT * allowed;
     solution->work = context->work;
-    /* what was cut off was compared with nothing */
+    /* it was then compared with no other */
     bool unknown = solution->modes.verdict == MODES_UNCHECKED || solution->steps.unchecked ||
                    attempt_is_spent(best);
     solution->tolerance_met =
@@ -110,16 +110,17 @@ static void conclude(const struct attempt_context *context, const struct attempt
         solution->steps.restitution + solution->modes.restitution <= context->problem->tolerance;
     solution->farther = solution->tolerance_met ? FACTOR_COMPARED : distance_factor(context, best);
     if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
-        widen(context, best, unknown, solution);
-    /* what sequences amplify beyond all bounds */
+        solution_widen(context, best, unknown, solution);
+    /* sequences may amplify errors beyond the possible */
     double range = outcome_range(context->problem, &best->outcome);
     double compression = problem_largest_compression(context->problem);
-    bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
-    bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
+    solution_bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
+    solution_bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
 }
 
 /* By as many modes and as short steps as the tolerance asks for. */
-static enum percuss_status search(struct attempt_context *context, struct solution *solution)
+static enum percuss_status solution_search(struct attempt_context *context,
+                                           struct solution *solution)
 {
     const struct problem *problem = context->problem;
     bool sequence = refinement_expects_sequence(problem);
@@ -131,14 +132,14 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
     enum percuss_status status = refine_modes(context, &best, &solution->modes);
     if (status)
         return status;
-    /* as short steps, unless there is nothing to solve */
+    /* steps as short, unless there is nothing to solve */
     if (!best.outcome.always_overlapped)
-        status = refine_steps(context, &best, &solution->modes, &solution->steps);
-    /* and what the speed does */
+        status = step_search(context, &best, &solution->modes, &solution->steps);
+    /* and the derivative by the speed */
     if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
         status = find_conditioning(context, &best, &solution->restitution_by_speed);
     if (!status)
-        conclude(context, &best, solution);
+        solution_conclude(context, &best, solution);
     return status;
 }
 
@@ -158,8 +159,9 @@ static bool make_scene(const struct problem *problem, const struct solution_mode
 }
 
 /* Once, without an estimate of the error. */
-static enum percuss_status run(struct attempt_context *context, const struct solution_model *model,
-                               struct solution *solution)
+static enum percuss_status solution_run(struct attempt_context *context,
+                                        const struct solution_model *model,
+                                        struct solution *solution)
 {
     bool sequence = refinement_expects_sequence(context->problem);
     struct attempt attempt = {.accuracy = model->accuracy,
@@ -187,14 +189,14 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
             .neighbours = &solution->neighbours,
         };
         enum percuss_status status =
-            model ? run(&context, model, solution) : search(&context, solution);
+            model ? solution_run(&context, model, solution) : solution_search(&context, solution);
         solution->revised = revised;
         if (status)
             return pace_fault(fault, status);
         if (solution->outcome.always_overlapped)
             return outcome_refuse_overlap(problem, &solution->outcome,
                                           attempt_horizon(problem, solution->scene), fault);
-        /* again where the solution contradicts what was chosen */
+        /* again where the solution contradicts the formulation */
         if (!formulation_revise(problem, solution->scene, &solution->outcome))
             return PERCUSS_OK;
         solution->scene = NULL;

@@ -11,7 +11,8 @@
 #include "solve/error/neighbours.h"
 #include "solve/error/refinement.h"
 
-/* What a search settles on: enough to solve the same problem again, or ones like it. */
+/* Modes and steps that a search settles on: enough to solve the same problem again, or similar
+ * ones. */
 struct solution_model {
     double cut;      /* modes up to this angular frequency take part, rad/s */
     double accuracy; /* of the time steps, see impact_settings */
@@ -40,14 +41,14 @@ struct solution {
 
 /* Solves until the estimated error fits `tolerance` or the effort allowed is spent, or once by a
  * model (NULL: none). Where the solution contradicts the choices of the formulation it revises the
- * problem, whose tolerance stays, and solves again. With a model it takes solution->scene as it is
+ * problem, but not its tolerance, and solves again. With a model it takes solution->scene as it is
  * if it is there. The arena is the outcome's; `pace` (NULL: none) may stop it. PERCUSS_OK,
  * PERCUSS_INTERNAL or PERCUSS_TIMEOUT; BAD_REQUEST: an overlap that contradicts itself. */
 enum percuss_status solution_find(struct solution *solution, struct problem *problem,
                                   double tolerance, const struct solution_model *model,
                                   struct arena *arena, struct pace *pace, struct fault *fault);
 
-/* What a search settled on. */
+/* The modes and steps that a search settled on. */
 struct solution_model solution_model_of(const struct solution *solution);
 
 #endif

@@ -41,8 +41,8 @@ void solve_workspace_free(struct solve_workspace *workspace)
     free(workspace);
 }
 
-/* All but the lists, which are long; their counts tell which entries are filled. */
-static void clear(struct solve_result *result)
+/* Clears all but the lists, which are long; their counts tell which entries are filled. */
+static void result_clear(struct solve_result *result)
 {
     memset(result, 0, offsetof(struct solve_result, contacts));
     result->restitution_by_speed = NAN;
@@ -78,8 +78,8 @@ static enum percuss_status check_counts(const struct solve_request *request, str
                          "contacts[%zu]." #name ": %g: must be in [%g, %g]", c, contact->name,     \
                          low, high);
 
-/* The endpoint has checked the wire's numbers; this guards the library's own entrance, whose
- * callers may take their time and a horizon longer than the wire's. */
+/* The endpoint has checked the wire's numbers; this guards the library's own entrance: its callers
+ * may set a horizon longer than the wire's. */
 static enum percuss_status check_finite(const struct solve_request *request, struct fault *fault)
 {
     for (size_t c = 0; c < request->contact_count; c++) {
@@ -97,9 +97,10 @@ static enum percuss_status check_finite(const struct solve_request *request, str
     return PERCUSS_OK;
 }
 
-static enum percuss_status answer(struct solve_workspace *workspace,
-                                  const struct solve_context *context,
-                                  const struct solve_request *request, struct solve_result *result)
+static enum percuss_status solve_answer(struct solve_workspace *workspace,
+                                        const struct solve_context *context,
+                                        const struct solve_request *request,
+                                        struct solve_result *result)
 {
     /* memory of the request */
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
@@ -150,15 +151,15 @@ static enum percuss_status answer(struct solve_workspace *workspace,
 enum percuss_status solve(struct solve_workspace *workspace, const struct solve_context *context,
                           const struct solve_request *request, struct solve_result *result)
 {
-    clear(result);
+    result_clear(result);
     arena_reset(&workspace->arena);
     prepared_cache_use(workspace->cache, context->catalogue->revision);
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);
     if (!result->status)
-        result->status = answer(workspace, context, request, result);
-    /* an answer that lacks something for want of memory is none, whatever it says */
+        result->status = solve_answer(workspace, context, request, result);
+    /* an answer that lacked memory is none, whatever its status */
     if (workspace->arena.lacks)
         result->status = fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     return result->status;
