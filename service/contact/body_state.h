@@ -32,7 +32,7 @@ struct body_state {
      * their models; 0: not known */
     double unknown, unknown_model;
     /* modes from known[f] of a family on were omitted in one of those answers, but excited: to a
-     * speed of phi abruptness omega^(-5/2) (start_error.c), N/s^(3/2) */
+     * speed of phi abruptness omega^(-5/2) (solve/error/state.c), N/s^(3/2) */
     double abruptness;
     size_t known[BODY_MOST_FAMILIES];
     double coordinates[];

@@ -27,7 +27,7 @@ static const double NAMED = 0.1;
 static const double NAMED_ELEMENT = 0.5;
 static const double NAMED_MOST = 0.5;
 /* Near an edge, other patches are searched within this distance, in smallest radii: more than a
- * point may lie off the surface (solve/placement.c). */
+ * point may lie off the surface (solve/formulation.c). */
 static const double BESIDE = 0.15;
 /* Doubt of a normal beyond which the surface counts as unknown: the largest allowed angle between
  * it and a stated normal. */

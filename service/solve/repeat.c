@@ -159,7 +159,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct solve_cont
     outcome->status = repeat_find(repeat, context, request, NULL, false, fault);
     if (!outcome->status) {
         repeat_judge(repeat, contact, outcome, fault);
-        outcome->error = solution->steps.restitution + solution->modes.restitution;
+        outcome->error = solution->error.steps.restitution + solution->error.modes.restitution;
         if (model)
             *model = solution_model_of(solution);
     }

@@ -16,7 +16,7 @@
 #include "model/vector.h"
 #include "solve/contact_model.h"
 #include "solve/error/law.h"
-#include "solve/error/state.h"
+#include "solve/error/total.h"
 #include "solve/radiation.h"
 #include "solve/validity.h"
 
@@ -348,14 +348,14 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     explain_modes(problem, assembly, &reason);
     if (radiation_is_in(problem, &assembly->scene))
         text_add(&reason, "; waves leave through the half-space: their energy counts as damping");
-    if (solution->start > 0.0)
+    if (solution->error.states.restitution > 0.0)
         text_format(&reason, "; what the states are wrong by changes the restitution by %.2g",
-                    solution->start);
+                    solution->error.states.restitution);
     if (problem->compliance.reason[0])
         text_format(&reason, "; half-space: %s", problem->compliance.reason);
     /* effects that it omits */
     result->omitted_error =
-        solution->modes.restitution + assembly->radiated_error + validity_wave_loss(problem) +
+        solution->error.modes.restitution + assembly->radiated_error + validity_wave_loss(problem) +
         law_error_worst(problem, &solution->outcome) * largest_restitution(result) +
         loss_worst(problem, &solution->outcome);
 }
@@ -376,14 +376,14 @@ static const char *reason_of_error(const struct problem *problem, const struct s
 {
     const struct assembly *assembly = solution->assembly;
     bool sequence = problem->contact_count > 1 || solution->outcome.tracks[0].count > 1;
-    bool modes = solution->modes.restitution > solution->steps.restitution;
+    bool modes = solution->error.modes.restitution > solution->error.steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
     /* the end of the search */
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
     if (solution->tolerance_met)
         return "the states that the bodies begin from are as wrong as the answers that left them";
-    if (!solution->steps.energy_closes)
+    if (!solution->error.steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
     /* the limit of the modes, or an amplified effect of the omitted ones */
     if (modes && omitted && problem->compliance.most > 0)
@@ -449,23 +449,8 @@ static void warn_counts(const struct problem *problem, const struct solution *so
 static void fill_errors(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    /* errors, and the derivative by the speed */
-    result->restitution_time = solution->steps.restitution;
-    result->restitution_modes = solution->modes.restitution;
-    if (solution->start > 0.0)
-        result->restitution_modes = fmin(result->restitution_modes + solution->start,
-                                         outcome_range(problem, &solution->outcome));
-    result->impulse_time = solution->steps.impulse;
-    result->impulse_modes = solution->modes.impulse;
-    if (solution->start > 0.0)
-        result->impulse_modes += solution->start * problem_largest_compression(problem);
+    total_report(problem, solution, result);
     result->restitution_by_speed = solution->restitution_by_speed;
-    /* an answer cut off by its effort was compared with no other */
-    double error = result->restitution_time + result->restitution_modes;
-    result->tolerance_met = solution->tolerance_met &&
-                            solution->outcome.end_reason != PERCUSS_END_LIMIT &&
-                            error <= problem->tolerance;
-    result->tolerance = problem->tolerance;
     result->energy = solution->outcome.energy;
     result->time_shift = solution->outcome.time_shift;
     result->window = solution->outcome.window;
@@ -473,38 +458,12 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     if (!result->tolerance_met) {
         report_warn(
             result,
-            "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s", error,
+            "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
+            result->restitution_time + result->restitution_modes,
             reason_of_error(problem, solution));
         warn_range(problem, solution, result);
     }
     warn_counts(problem, solution, result);
-}
-
-void report_model_error(double model, double yield, double range, struct solve_result *result)
-{
-    double numerical = result->restitution_time + result->restitution_modes;
-    result->restitution_model = model;
-    result->restitution_total = fmin(numerical + model, range);
-    result->restitution_yield = result->restitution_total - fmin(numerical + model - yield, range);
-    result->total_met = result->tolerance_met && result->restitution_total <= result->tolerance;
-}
-
-/* Of the largest impulse. */
-void report_state_errors(const struct problem *problem, const struct solution *solution,
-                         const struct start_error *start, struct solve_result *result)
-{
-    double impulse = 0.0;
-    for (size_t c = 0; c < result->contact_count; c++)
-        if (result->contacts[c].impulse > impulse)
-            impulse = result->contacts[c].impulse;
-    double share = impulse > 0.0 ? problem_largest_compression(problem) / impulse : 0.0;
-    const struct start_shares shares = {share *
-                                            (result->restitution_time + result->restitution_modes),
-                                        share * result->restitution_model};
-    for (size_t b = 0; b < result->body_count; b++)
-        if (result->bodies[b].state_after)
-            start_error_after(problem, solution, start, &shares, b,
-                              (struct body_state *)result->bodies[b].state_after);
 }
 
 static void fill_end(const struct solution *solution, struct solve_result *result)
@@ -548,7 +507,7 @@ void report_fill(const struct problem *problem, const struct solution *solution,
     validity_find_waves(problem, solution->assembly->radiated_error, &warnings);
     report_warnings(&warnings, result);
     /* numbers outside all bounds */
-    if (!outcome_keeps_energy(solution->steps.energy_defect))
+    if (!outcome_keeps_energy(solution->error.steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,
                       "energy.closure: %.3g J of %.3g J available: the solution does not "

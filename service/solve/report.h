@@ -9,20 +9,9 @@
 #include "solve/result.h"
 #include "solve/solution.h"
 
-struct start_error; /* start_error.h */
-
 /* Fills everything of `result` that the solution decides; status and message too. */
 void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result);
-
-/* Fills the error of the models, on the restitution, and its sum with the numerical errors that are
- * already there (a sum, since errors of modes and steps are systematic), at most `range`, the
- * largest possible error. `yield` is the part of `model` from metals without a stated yield. */
-void report_model_error(double model, double yield, double range, struct solve_result *result);
-
-/* Fills the errors of the bodies' new states, from all errors of `result`. */
-void report_state_errors(const struct problem *problem, const struct solution *solution,
-                         const struct start_error *start, struct solve_result *result);
 
 /* The state of a body at the end of the window: modes that took part from the outcome, the others
  * of its initial state moved on freely; dents unless the request ignores them. NULL: a rigid body

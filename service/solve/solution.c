@@ -65,11 +65,12 @@ static double distance_factor(const struct attempt_context *context, const struc
 static void solution_widen(const struct attempt_context *context, const struct attempt *best,
                            bool unknown, struct solution *solution)
 {
-    struct mode_error *modes = &solution->modes;
+    struct mode_error *modes = &solution->error.modes;
     double distance = neighbours_distance(context->neighbours, context->problem, &best->outcome);
     bool alone = context->neighbours->solutions < 2;
     double error = alone && !unknown ? 0.0 : distance_factor(context, best) * distance;
-    error = fmax(error, unknown ? context->problem->tolerance : 0.0) - solution->steps.restitution;
+    error = fmax(error, unknown ? context->problem->tolerance : 0.0) -
+            solution->error.steps.restitution;
     if (error > modes->restitution) {
         modes->restitution = error;
         modes->impulse =
@@ -103,19 +104,22 @@ static void solution_conclude(const struct attempt_context *context, const struc
     solution->spent = context->work < SPENT * allowed;
     solution->work = context->work;
     /* it was then compared with no other */
-    bool unknown = solution->modes.verdict == MODES_UNCHECKED || solution->steps.unchecked ||
-                   attempt_is_spent(best);
+    bool unknown = solution->error.modes.verdict == MODES_UNCHECKED ||
+                   solution->error.steps.unchecked || attempt_is_spent(best);
     solution->tolerance_met =
-        solution->steps.energy_closes && !unknown &&
-        solution->steps.restitution + solution->modes.restitution <= context->problem->tolerance;
+        solution->error.steps.energy_closes && !unknown &&
+        solution->error.steps.restitution + solution->error.modes.restitution <=
+            context->problem->tolerance;
     solution->farther = solution->tolerance_met ? FACTOR_COMPARED : distance_factor(context, best);
     if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
         solution_widen(context, best, unknown, solution);
     /* sequences may amplify errors beyond the possible */
     double range = outcome_range(context->problem, &best->outcome);
     double compression = problem_largest_compression(context->problem);
-    solution_bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
-    solution_bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
+    solution_bound(range, compression, &solution->error.steps.restitution,
+                   &solution->error.steps.impulse);
+    solution_bound(range, compression, &solution->error.modes.restitution,
+                   &solution->error.modes.impulse);
 }
 
 /* By as many modes and as short steps as the tolerance asks for. */
@@ -129,12 +133,12 @@ static enum percuss_status solution_search(struct attempt_context *context,
     struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
                                                               problem->contact_count > 1),
                            .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
-    enum percuss_status status = refine_modes(context, &best, &solution->modes);
+    enum percuss_status status = refine_modes(context, &best, &solution->error.modes);
     if (status)
         return status;
     /* steps as short, unless there is nothing to solve */
     if (!best.outcome.always_overlapped)
-        status = step_search(context, &best, &solution->modes, &solution->steps);
+        status = refine_steps(context, &best, &solution->error.modes, &solution->error.steps);
     /* and the derivative by the speed */
     if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
         status = find_conditioning(context, &best, &solution->restitution_by_speed);

@@ -1,9 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The solution of a problem: as many modes (refine_modes.h) and as short time steps
- * (refine_steps.h) as the tolerance on the restitution asks for, or a model of both that is given.
- */
+/* The solution of a problem: as many modes and as short time steps as the tolerance on
+ * the restitution asks for (error/refinement.h), or a model of both that is given. */
 #ifndef PERCUSS_SOLVE_SOLUTION_H
 #define PERCUSS_SOLVE_SOLUTION_H
 
@@ -28,10 +27,8 @@ struct solution {
     struct tangent_path *path;     /* along it, if it was asked for on the way; NULL */
     double step_accuracy;          /* that it was solved with, see impact_settings */
     enum impact_care step_care;    /* the same */
-    struct mode_error modes;
-    struct step_error steps;
-    double start;                /* of the restitution: the states' own errors, start_error.h */
-    double restitution_by_speed; /* NAN unless asked for */
+    struct error_budget error;     /* of modes and steps; those of models and states come later */
+    double restitution_by_speed;   /* NAN unless asked for */
     bool tolerance_met;
     bool spent;     /* the effort allowed ended the search */
     double work;    /* that it left of it (impact.h) */

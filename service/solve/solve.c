@@ -7,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/error/impulses.h"
-#include "solve/error/models.h"
-#include "solve/error/state.h"
+#include "solve/error/total.h"
 #include "solve/finite_element.h"
 #include "solve/formulation.h"
 #include "solve/report.h"
@@ -125,20 +123,11 @@ static enum percuss_status solve_answer(struct solve_workspace *workspace,
     struct concurrent_effort effort;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
-    /* the answer, and its histories */
-    struct model_error model;
-    struct start_error start = {0};
+    /* its other errors, the answer, and its histories */
     if (!status)
-        status = pace_fault(&result->fault, models_find_error(problem, solution, &pace, &model));
-    if (!status && !concurrent)
-        status = pace_fault(&result->fault, start_error_find(problem, solution, &pace, &start));
+        status = pace_fault(&result->fault, total_find(problem, solution, !concurrent, &pace));
     if (!status) {
-        solution->start = start.restitution;
         report_fill(problem, solution, result);
-        report_model_error(model.restitution + start.model, model.yield,
-                           outcome_range(problem, &solution->outcome), result);
-        impulse_error_report(problem, solution, &model, start.model, result);
-        report_state_errors(problem, solution, &start, result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);
         status = result->status;

@@ -367,7 +367,7 @@ static enum percuss_status single_by_order(const struct model_margin *margin, st
 {
     const struct solution *solution = margin->solution;
     double all = deviation_stiffness(&margin->deviation[0], &margin->impact[0]);
-    double expected = solution->modes.strained * sensitivity(margin) * all;
+    double expected = solution->error.modes.strained * sensitivity(margin) * all;
     if (!(all > 0.0) || expected > STRAIN_EXPECTED)
         return PERCUSS_OK;
     bool bends = solution->scene->laws[0].operations->three_halves;

@@ -11,12 +11,6 @@
 #include "solve/error/deviation.h"
 #include "solve/solution.h"
 
-struct model_error {
-    double restitution;                   /* of the contact where it is largest */
-    double yield;                         /* the part of metals of unstated yield */
-    double impulse[PERCUSS_MAX_CONTACTS]; /* of each contact, N s; INFINITY: unknown */
-};
-
 /* PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
 enum percuss_status models_find_error(const struct problem *problem,
                                       const struct solution *solution, struct pace *pace,

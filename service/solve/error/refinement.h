@@ -8,35 +8,10 @@
 #define PERCUSS_SOLVE_ERROR_REFINEMENT_H
 
 #include "solve/error/attempt.h"
+#include "solve/error/budget.h"
 
 /* Most modes of a family of a body that are tried. */
 enum { REFINEMENT_MOST_MODES = 1200 };
-
-/* Scope of the error of the omitted modes. */
-enum mode_verdict {
-    MODES_ALONE,       /* the modes' error */
-    MODES_AND_STEPS,   /* of a sequence, that of longer time steps, too */
-    MODES_BELOW_STEPS, /* it is too large, and longer time steps do more */
-    MODES_UNCHECKED,   /* not all: the effort did not suffice */
-};
-
-/* The error of the omitted modes. */
-struct mode_error {
-    double restitution, impulse;
-    enum mode_verdict verdict;
-    /* change of a sub-impact's impulse, over itself, or of e where only that is known, over the
-     * first-order change of one impact's e; 0: neither is known */
-    double strained;
-    const struct attempt *longer; /* with longer time steps, in the arena; NULL: none was needed */
-};
-
-/* The error of the time steps. */
-struct step_error {
-    double restitution, impulse;
-    double energy_defect; /* |closure| over the available energy or the approach's */
-    bool energy_closes;   /* as the tolerance demands */
-    bool unchecked;       /* of a sequence: the effort did not suffice */
-};
 
 /* Whether a contact bends a beam, or there are several: then a sequence of sub-impacts is likely,
  * which amplifies every error. */

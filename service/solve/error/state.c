@@ -150,13 +150,13 @@ static enum percuss_status solve_starts(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-enum percuss_status start_error_find(const struct problem *problem, const struct solution *solution,
-                                     struct pace *pace, struct start_error *error)
+enum percuss_status state_find_error(const struct problem *problem, const struct solution *solution,
+                                     struct pace *pace, struct state_error *error)
 {
     struct attempt_context context = {
         .problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work};
     double farthest[2] = {0.0, 0.0};
-    *error = (struct start_error){0};
+    *error = (struct state_error){0};
     if (solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return PERCUSS_OK;
     for (int model = 0; model < 2; model++) {
@@ -241,13 +241,13 @@ static size_t known_after(const struct problem *problem, const struct solution *
     return known;
 }
 
-void start_error_after(const struct problem *problem, const struct solution *solution,
-                       const struct start_error *start, const struct start_shares *shares,
-                       size_t body, struct body_state *state)
+void state_error_after(const struct problem *problem, const struct solution *solution,
+                       const struct state_shares *shares, size_t body, struct body_state *state)
 {
     double before = energy_before(solution->scene, body);
     double after = solution->outcome.vibration[body];
-    double differs = fmax(solution->neighbours.vibration[body], start->vibration[false][body]);
+    double differs =
+        fmax(solution->neighbours.vibration[body], solution->error.states.vibration[false][body]);
     state->unknown =
         share_after(share_of(problem, body, false), before, shares->numerical, differs, after);
     state->abruptness = abruptness_after(problem, solution, body);
@@ -259,5 +259,5 @@ void start_error_after(const struct problem *problem, const struct solution *sol
     if (axes->sine != 0.0)
         planes[0] = planes[1] = planes[0] < planes[1] ? planes[0] : planes[1];
     state->unknown_model = share_after(share_of(problem, body, true), before, shares->model,
-                                       start->vibration[true][body], after);
+                                       solution->error.states.vibration[true][body], after);
 }

@@ -8,28 +8,20 @@
 
 #include "solve/solution.h"
 
-struct start_error {
-    double restitution; /* by the errors of modes and steps of the answers before */
-    double model;       /* and by their models' */
-    /* J, effect of either on the vibration of a body by the forces that it changes */
-    double vibration[2][PERCUSS_MAX_BODIES];
-};
-
 /* Other solutions, with vibration that begins as wrong as the states say. Zero where none
  * of them says so. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
-enum percuss_status start_error_find(const struct problem *problem, const struct solution *solution,
-                                     struct pace *pace, struct start_error *error);
+enum percuss_status state_find_error(const struct problem *problem, const struct solution *solution,
+                                     struct pace *pace, struct state_error *error);
 
 /* Errors of this answer as shares of the impulses: modes and steps with the effect of the start,
  * and the models'. */
-struct start_shares {
+struct state_shares {
     double numerical, model;
 };
 
 /* The error of a body's vibration after the answer, as shares of its amplitudes, for its
  * new state. */
-void start_error_after(const struct problem *problem, const struct solution *solution,
-                       const struct start_error *start, const struct start_shares *shares,
-                       size_t body, struct body_state *state);
+void state_error_after(const struct problem *problem, const struct solution *solution,
+                       const struct state_shares *shares, size_t body, struct body_state *state);
 
 #endif

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/concurrent_search.c: known limits of steps and meshes, and a budget. */
+/* Mirrors service/solve/finite_element.c: known limits of steps and meshes, and a budget. */
 #include "physics/support.h"
-#include "solve/concurrent_search.h"
+#include "solve/finite_element.h"
 
 /* e = 0.5 + 0.01 / 2^(order k) with 2^k times the fewest steps. */
 static struct concurrent_steps known_steps(unsigned count, unsigned chosen, double order)

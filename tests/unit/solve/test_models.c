@@ -50,7 +50,8 @@ static void covers(double e, double reference, double others)
         fail_msg("%g +- %g does not cover %g", e, result.restitution_total, reference);
 }
 
-/* Complete finite elements, docs/lab/complete-fe.md: 0.7226 to 0.5896 at 0.1 to 0.5 m/s, to 1e-4. */
+/* Complete finite elements, docs/lab/complete-fe.md: 0.7226 to 0.5896 at 0.1 to 0.5 m/s, to 1e-4.
+ */
 static void an_elastic_rod(void **state)
 {
     (void)state;

@@ -30,7 +30,8 @@ static void tolerances_are_met(void **state)
         for (size_t r = 0; r < COUNT(requests); r++) {
             double e = found(search, &requests[r], NULL);
             assert_true(solution.tolerance_met && !solution.spent);
-            assert_true(solution.steps.restitution + solution.modes.restitution <= tolerances[i]);
+            assert_true(solution.error.steps.restitution + solution.error.modes.restitution <=
+                        tolerances[i]);
             struct attempt reference = search_attempt(search, 400, 1e-12);
             near(e, outcome_restitution(search->context.problem, &reference.outcome, 0),
                  tolerances[i]);
