@@ -1,12 +1,17 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 
-# percuss_layer(<folder of service/> LINKS <lower layers and libraries>): one static library a folder.
+# percuss_layer(<folder of service/core/ or service/> LINKS <lower layers and libraries>): one static library a
+# folder. A folder of the core sees the core alone.
 function(percuss_layer name)
   cmake_parse_arguments(LAYER "" "" "LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/service/${name}/*.c ${PROJECT_SOURCE_DIR}/service/${name}/*/*.c)
+  set(door ${PROJECT_SOURCE_DIR}/service)
+  if(EXISTS ${door}/core/${name})
+    string(APPEND door /core)
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${door}/${name}/*.c ${door}/${name}/*/*.c)
   add_library(${name} STATIC ${sources})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/service ${PROJECT_SOURCE_DIR}/idl)
+  target_include_directories(${name} PUBLIC ${door} ${PROJECT_SOURCE_DIR}/idl)
   target_link_libraries(${name} PUBLIC ${LAYER_LINKS} m)
 endfunction()
 

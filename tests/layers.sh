@@ -39,7 +39,8 @@ complain() {
     bad=1
 }
 
-for folder in service/*/; do
+for folder in service/core/*/ service/tools/*/ service/*/; do
+    case $folder in service/core/ | service/tools/) continue ;; esac
     layer=$(basename "$folder")
     list=$(allowed "$layer")
     [ -n "$list" ] || complain "$folder is in no layer: add it to tests/layers.sh and docs/architecture.md"
@@ -68,14 +69,14 @@ for folder in service/*/; do
 done
 
 # no module (a .c and a .h of one name) includes itself round: the shortest way through each that does
-rounds=$(for file in service/*/*.[ch] service/*/*/*.[ch] client/*/*.[ch] client/include/*/*.h; do
+rounds=$(for file in $(find service -name '*.[ch]') client/*/*.[ch] client/include/*/*.h; do
     sed -n 's/^ *# *include *["<]\([^">]*\)[">].*/\1/p' "$file" | sed "s|^|$file |"
 done | awk '
-    function module(path) { sub(/\.[ch]$/, "", path); return path }
+    function module(path) { sub(/\.[ch]$/, "", path); sub(/^service\/((core|tools)\/)?/, "", path); return path }
     {
         folder = $1
         sub(/[^\/]*$/, "", folder)
-        to = $2 ~ /^percuss\// ? "client/include/" $2 : $2 ~ /\// ? "service/" $2 : folder $2
+        to = $2 ~ /^percuss\// ? "client/include/" $2 : $2 ~ /\// ? $2 : folder $2
         if (module($1) != module(to))
             next_of[module($1)] = next_of[module($1)] " " module(to)
     }
@@ -104,23 +105,23 @@ $rounds"
 only() {
     pattern=$1
     owner=$2
-    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] service/*/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)[/.]")
+    found=$(grep -lE "^ *# *include *<($pattern)" $(find service -name '*.[ch]') client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)[/.]")
     [ -z "$found" ] || complain "<$pattern> outside $owner: $found"
 }
-only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
-only 'lapacke|Random123' 'service/numeric'
-only 'cblas' 'service/numeric'
-only 'dmumps' 'service/reduce'
-only 'petsc|slepc' 'service/reduce_mpi'
-only 'mpi\.h' 'service/reduce_mpi|client/mpi'
+only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/core/numeric'
+only 'lapacke|Random123' 'service/core/numeric'
+only 'cblas' 'service/core/numeric'
+only 'dmumps' 'service/tools/reduce'
+only 'petsc|slepc' 'service/tools/reduce_mpi'
+only 'mpi\.h' 'service/tools/reduce_mpi|client/mpi'
 only 'cminpack' 'client/measured'
-only 'yaml' 'service/catalogue|service/respond'
+only 'yaml' 'service/core/catalogue|service/respond'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
-only 'hdf5' 'service/mesh'
+only 'hdf5' 'service/core/mesh'
 only 'zmumps' 'tests/reference/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
-only 'time\.h|sys/|unistd|pthread' 'service/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
+only 'time\.h|sys/|unistd|pthread' 'service/core/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/core/catalogue|service/core/mesh|service/store|service/tools/tables|service/tools/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
 
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
 # with its complementarity solver, and clients, command lines and files of measurements with its numbers
@@ -130,7 +131,7 @@ found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|en
 [ -z "$found" ] || complain "client looks into the service: $found"
 
 # which therefore needs nothing of the rest, and the slow scale no DDS
-found=$(grep -nE '^ *# *include *("(base|model)/|<(lapacke|cvode|sundials))' service/numeric/lcp.[ch] service/numeric/linear_solve.c service/numeric/linear.h
+found=$(grep -nE '^ *# *include *("(base|model)/|<(lapacke|cvode|sundials))' service/core/numeric/lcp.[ch] service/core/numeric/linear_solve.c service/core/numeric/linear.h
     grep -nE '^ *# *include *["<](dds/|wire|percuss_wire|pthread)' client/slowscale/*.[ch] client/include/percuss/*.h)
 [ -z "$found" ] || complain "the slow scale must stand alone: $found"
 

@@ -33,26 +33,26 @@ as_it_is
 sh "$here/layers.sh" "$work" >/dev/null
 
 # header to header, source to header and back, and the long way round over three
-includes service/numeric/made_up.h numeric/made_too.h
-includes service/numeric/made_too.h numeric/made_up.h
-refused "service/numeric/made_up > service/numeric/made_too > service/numeric/made_up"
-includes service/base/made_up.c base/made_too.h
-includes service/base/made_too.h base/made_up.h
-refused "service/base/made_up > service/base/made_too > service/base/made_up"
+includes service/core/numeric/made_up.h numeric/made_too.h
+includes service/core/numeric/made_too.h numeric/made_up.h
+refused "numeric/made_up > numeric/made_too > numeric/made_up"
+includes service/core/base/made_up.c base/made_too.h
+includes service/core/base/made_too.h base/made_up.h
+refused "base/made_up > base/made_too > base/made_up"
 includes client/cli/made_up.h made_too.h
 includes client/cli/made_too.c made_three.h
 includes client/cli/made_three.h made_up.h
 refused "client/cli/made_three > client/cli/made_up > client/cli/made_too > client/cli/made_three"
 
 # upward, out of the service, and a library of another folder's
-includes service/base/made_up.c solve/solve.h
-refused "service/base/made_up.c (base) includes solve/solve.h"
+includes service/core/base/made_up.c solve/solve.h
+refused "service/core/base/made_up.c (base) includes solve/solve.h"
 includes client/cli/made_up.c solve/solve.h
 refused "client looks into the service"
 includes client/measured/made_up.c base/fault.h
 refused "client looks into the service"
-echo '#include <sqlite3.h>' >>"$work/service/solve/made_up.c"
+echo '#include <sqlite3.h>' >>"$work/service/core/solve/made_up.c"
 refused "<sqlite3> outside service/store"
-echo '#include <zmumps_c.h>' >>"$work/service/reduce/made_up.c"
+echo '#include <zmumps_c.h>' >>"$work/service/tools/reduce/made_up.c"
 refused "<zmumps> outside tests/reference/spatial"
 echo "layers_test: passed"

@@ -35,7 +35,8 @@ def show_words(name, sources):
 def resolved(root, sources):
     """For each file the files that it includes by name."""
     return {path: {target for name in INCLUDE.findall(text)
-                   for target in (root / "service" / name, path.parent / name) if target in sources}
+                   for target in (*(root / "service" / door / name for door in ("core", "", "tools")), path.parent / name)
+                   if target in sources}
             for path, text in sources.items()}
 
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Blocks that bend (service/model/ritz.h, service/solve/vibration.h): against meshes of finite
+/* Blocks that bend (service/core/model/ritz.h, service/core/solve/vibration.h): against meshes of finite
  * elements and Zener's infinite plate; states, groups, both methods; compact ones stay rigid. */
 #include "physics/support.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Cylinders that vibrate (service/model/ritz.h), hit on an end and on the side: against meshes of
+/* Cylinders that vibrate (service/core/model/ritz.h), hit on an end and on the side: against meshes of
  * finite elements, a rod's meshes among them; the paper's compact one. */
 #include "physics/support.h"
 

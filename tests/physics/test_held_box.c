@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Blocks that are held at an end or both (service/model/ritz.h): against meshes of finite elements
+/* Blocks that are held at an end or both (service/core/model/ritz.h): against meshes of finite elements
  * and beams; what supports leave of W; states, groups, both methods; who cannot be hit. */
 #include "physics/support.h"
 

@@ -8,7 +8,7 @@
 #include "physics/waves.h"
 
 /* Jackson and Green's law by its published formulas, with this project's joints between them
- * (service/contact/law_closed_form.c) and sphere, steel, on a plane. */
+ * (service/core/contact/law_closed_form.c) and sphere, steel, on a plane. */
 struct soft_law {
     double k, depth, radius, growth, hardness; /* Hertz; of yield; sphere; B; H0 4/(C S_y) */
 };

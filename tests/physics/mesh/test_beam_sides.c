@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam_statics.c: how a bent bar's side moves in its modes, and how it gives way
+/* Mirrors service/core/model/beam_statics.c: how a bent bar's side moves in its modes, and how it gives way
  * to a force, against meshes of the bars. */
 #include "physics/mesh/side_local.h"
 #include "unit/reduce/solve_mesh.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/arena.c: alignment, zeros, reuse, and sizes that cannot be. */
+/* Mirrors service/core/base/arena.c: alignment, zeros, reuse, and sizes that cannot be. */
 #include <string.h>
 
 #include "base/arena.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/fault.c: messages and the names of the wire's numbers. */
+/* Mirrors service/core/base/fault.c: messages and the names of the wire's numbers. */
 #include <string.h>
 
 #include "base/fault.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/sha256.c. */
+/* Mirrors service/core/base/sha256.c. */
 #include <string.h>
 
 #include "base/sha256.h"

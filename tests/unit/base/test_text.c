@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/text.c. */
+/* Mirrors service/core/base/text.c. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

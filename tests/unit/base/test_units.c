@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/units.c. */
+/* Mirrors service/core/base/units.c. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/base/watch.c: who waits is asked once in so much work, and never again after no.
+/* Mirrors service/core/base/watch.c: who waits is asked once in so much work, and never again after no.
  */
 #include "base/watch.h"
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/family.c: a family sampled from powers whose
+/* Mirrors service/core/contact/family.c: a family sampled from powers whose
  * exponents depend on the place, so that every curve between the places is known. */
 #include <string.h>
 

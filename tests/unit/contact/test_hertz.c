@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/hertz.c: stiffness, ellipse and pressure against mpmath and closed forms,
+/* Mirrors service/core/contact/hertz.c: stiffness, ellipse and pressure against mpmath and closed forms,
  * from the circle to the line. */
 #include "check.h"
 #include "contact/hertz.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/laws.c, law_hertz.c and law_linear.c: what may be asked for is known by
+/* Mirrors service/core/contact/laws.c, law_hertz.c and law_linear.c: what may be asked for is known by
  * its number; force, slope, stored energy and inverse of one law fit together. The pattern for the
  * test of a new law. */
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/law_closed_form.c and plastic.c: the loading curve is smooth and rises,
+/* Mirrors service/core/contact/law_closed_form.c and plastic.c: the loading curve is smooth and rises,
  * branches lead back to it, and every loop dissipates its area. */
 #include "check.h"
 #include "contact/law_closed_form.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/law_table.c: a table sampled from the closed form follows it, its curves
+/* Mirrors service/core/contact/law_table.c: a table sampled from the closed form follows it, its curves
  * fit together, bad samples are refused. */
 #include <string.h>
 

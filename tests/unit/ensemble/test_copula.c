@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/copula.c: normal scores have the coefficients asked for. */
+/* Mirrors service/core/ensemble/copula.c: normal scores have the coefficients asked for. */
 #include <string.h>
 
 #include "check.h"

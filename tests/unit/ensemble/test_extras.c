@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/extras.c: the samples that are looked at again stand for all. */
+/* Mirrors service/core/ensemble/extras.c: the samples that are looked at again stand for all. */
 #include "check.h"
 #include "ensemble/extras.h"
 

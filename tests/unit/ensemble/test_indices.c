@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/indices.c: Sobol indices of functions that have closed ones, and that
+/* Mirrors service/core/ensemble/indices.c: Sobol indices of functions that have closed ones, and that
  * their intervals are honest: over many ensembles the nominal 95 % interval covers the truth as
  * often as it says. */
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/influence.c: where a function is rough. */
+/* Mirrors service/core/ensemble/influence.c: where a function is rough. */
 #include <string.h>
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/input.c: quantile functions against closed forms, and refusals. */
+/* Mirrors service/core/ensemble/input.c: quantile functions against closed forms, and refusals. */
 #include <string.h>
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/interval.c: intervals by hand, and that they are honest: over many small
+/* Mirrors service/core/ensemble/interval.c: intervals by hand, and that they are honest: over many small
  * ensembles the nominal 95 % interval covers the truth as often as it says. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/sampling.c: points are functions of their index, strata are
+/* Mirrors service/core/ensemble/sampling.c: points are functions of their index, strata are
  * hit once, Sobol's nets are nets. */
 #include <string.h>
 

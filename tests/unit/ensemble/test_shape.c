@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/shape.c: intervals by hand, Beta fits of Beta and of other samples. */
+/* Mirrors service/core/ensemble/shape.c: intervals by hand, Beta fits of Beta and of other samples. */
 #include <string.h>
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/ensemble/summary.c: statistics of samples that can be reckoned by hand. */
+/* Mirrors service/core/ensemble/summary.c: statistics of samples that can be reckoned by hand. */
 #include <string.h>
 
 #include "check.h"

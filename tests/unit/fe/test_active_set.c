@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/active_set.c: the conditions of contact on full matrices, three ways to ask.
+/* Mirrors service/core/fe/active_set.c: the conditions of contact on full matrices, three ways to ask.
  */
 #include "check.h"
 #include "fe/active_set.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/boussinesq.c: stresses from the displacements by Hooke's law and differences,
+/* Mirrors service/core/fe/boussinesq.c: stresses from the displacements by Hooke's law and differences,
  * the load they carry, a free surface. */
 #include "check.h"
 #include "fe/boussinesq.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/complete_body.c. */
+/* Mirrors service/core/fe/complete_body.c. */
 #include <string.h>
 
 #include "check.h"

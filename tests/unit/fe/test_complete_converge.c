@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/complete_converge.c: known limits, and scenes against finer meshes
+/* Mirrors service/core/fe/complete_converge.c: known limits, and scenes against finer meshes
  * and another program's. */
 #include "check.h"
 #include "fe/complete_converge.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/complete_mean.c: sums and balances hold for a mean as for what it is of. */
+/* Mirrors service/core/fe/complete_mean.c: sums and balances hold for a mean as for what it is of. */
 #include "check.h"
 #include "fe/complete_mean.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/dynamics.c: levels, rigid motion, the
+/* Mirrors service/core/fe/dynamics.c: levels, rigid motion, the
  * lowest vibration of a rod, energy over many periods. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/element_blocks.c: fours of elements against one element
+/* Mirrors service/core/fe/element_blocks.c: fours of elements against one element
  * with the scalar radial return of fe/plasticity.c. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/impact_complete.c: Hertz, a rod
+/* Mirrors service/core/fe/impact_complete.c: Hertz, a rod
  * by one-dimensional waves, plastic flow, several contacts, errors. Coarse meshes. */
 #include <string.h>
 

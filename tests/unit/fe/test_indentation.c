@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/indentation.c: the table of the paper's rod 1, its
+/* Mirrors service/core/fe/indentation.c: the table of the paper's rod 1, its
  * stated errors, branches, an elastic pair, progress, refusals. */
 #include <string.h>
 

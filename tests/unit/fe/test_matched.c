@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/matched.c: the rod end's numbers, and whole bodies
+/* Mirrors service/core/fe/matched.c: the rod end's numbers, and whole bodies
  * meshed and loaded by Hertz's pressure on a small patch, which know nothing of the correction's
  * idea. */
 #include <string.h>

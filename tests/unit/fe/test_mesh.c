@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/mesh.c: volumes, positive elements, boundary lists, matching
+/* Mirrors service/core/fe/mesh.c: volumes, positive elements, boundary lists, matching
  * contact nodes, refusals. */
 #include <string.h>
 

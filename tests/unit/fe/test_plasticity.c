@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/plasticity.c: uniaxial curve, shear, unloading, tangent against differences.
+/* Mirrors service/core/fe/plasticity.c: uniaxial curve, shear, unloading, tangent against differences.
  */
 #include <string.h>
 

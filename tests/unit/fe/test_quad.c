@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/quad.c: constant strain, rigid motion, refusals, and no locking: a thick tube
+/* Mirrors service/core/fe/quad.c: constant strain, rigid motion, refusals, and no locking: a thick tube
  * at nu = 0.4999 and at its plastic limit load. */
 #include <string.h>
 

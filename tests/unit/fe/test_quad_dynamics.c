@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/quad_dynamics.c: patch test, rank, volume, thick tube of incompressible
+/* Mirrors service/core/fe/quad_dynamics.c: patch test, rank, volume, thick tube of incompressible
  * material. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/region.c, solid.c and active_set.c: Hertz, yield onset,
+/* Mirrors service/core/fe/region.c, solid.c and active_set.c: Hertz, yield onset,
  * Jackson-Green, the dent that stays, energy, stepping. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/swing.c: known swings. */
+/* Mirrors service/core/fe/swing.c: known swings. */
 #include "check.h"
 #include "fe/swing.h"
 

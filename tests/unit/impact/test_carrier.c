@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/carrier.c: modes carried through steps of any lengths, some of them not
+/* Mirrors service/core/impact/carrier.c: modes carried through steps of any lengths, some of them not
  * taken, against the same steps by motion_step and motion_push. */
 #include "impact/carrier.h"
 #include "impact/kernel.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/collocation.c: every number of the table from its definition. */
+/* Mirrors service/core/impact/collocation.c: every number of the table from its definition. */
 #include "check.h"
 #include "impact/collocation.h"
 

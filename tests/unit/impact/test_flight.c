@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/flight.c: the first touch of vibrating bodies, hidden double roots, and
+/* Mirrors service/core/impact/flight.c: the first touch of vibrating bodies, hidden double roots, and
  * the end, against a search that samples without mercy. */
 #include "impact/flight.h"
 #include "unit/impact/toy_scene.h"

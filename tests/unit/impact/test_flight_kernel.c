@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/flight_kernel.c: bounds against sums written out, series and turns against
+/* Mirrors service/core/impact/flight_kernel.c: bounds against sums written out, series and turns against
  * the exact motion of one oscillator after the other. */
 #include <string.h>
 

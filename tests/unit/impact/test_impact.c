@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
+/* Mirrors service/core/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
  * both methods, with their scales, starts and audits. */
 #include "impact/impact_scale.h"
 #include "impact/march.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/march.c: the order of flights and contact phases, why a march ends, its
+/* Mirrors service/core/impact/march.c: the order of flights and contact phases, why a march ends, its
  * books, and what stops it; with methods of contacts that turn every gap rate round at once. */
 #include "impact/march.h"
 #include "unit/impact/toy_scene.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/node_solver.c: what it solves fulfils the equations. */
+/* Mirrors service/core/impact/node_solver.c: what it solves fulfils the equations. */
 #include "impact/node_solver.h"
 #include "unit/impact/toy_scene.h"
 

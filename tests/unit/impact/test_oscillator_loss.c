@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/oscillator.c: the quadratic form of the damper's work against a fine
+/* Mirrors service/core/impact/oscillator.c: the quadratic form of the damper's work against a fine
  * quadrature and against the energy that forces, motion and damper share. */
 #include "check.h"
 #include "impact/oscillator.h"

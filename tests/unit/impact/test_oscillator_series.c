@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/oscillator.c: against the maps by moments, which take another way,
+/* Mirrors service/core/impact/oscillator.c: against the maps by moments, which take another way,
  * at every angle that the series reach, and against exact integrals. */
 #include "check.h"
 #include "impact/oscillator.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/step_ends.c: moments of forces that begin or end on a step. */
+/* Mirrors service/core/impact/step_ends.c: moments of forces that begin or end on a step. */
 #include "check.h"
 #include "impact/step_ends.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/modal.c: a rough table's steps pass its knots, against CVODE, which
+/* Mirrors service/core/impact/modal.c: a rough table's steps pass its knots, against CVODE, which
  * shortens its steps there, and against the same steps without the correction. */
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"

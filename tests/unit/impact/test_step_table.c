@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/step_table.c: the ladder of steps and tables that hold the oscillators'
+/* Mirrors service/core/impact/step_table.c: the ladder of steps and tables that hold the oscillators'
  * maps bit by bit. */
 #include "check.h"
 #include "impact/oscillator.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/tangent.c: what first and second order say of a sequence of sub-impacts
+/* Mirrors service/core/impact/tangent.c: what first and second order say of a sequence of sub-impacts
  * against solutions of the changed scene. */
 #include "contact/plastic.h"
 #include "impact/oscillator.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/tangent_group.c: what first order says of contacts that feel each other
+/* Mirrors service/core/impact/tangent_group.c: what first order says of contacts that feel each other
  * against solutions of the changed scene. */
 #include "contact/plastic.h"
 #include "impact/tangent_group.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/yielding.c: impacts whose contacts yield, against the energy of a rigid
+/* Mirrors service/core/impact/yielding.c: impacts whose contacts yield, against the energy of a rigid
  * pair and against CVODE; order of the steps that end where a law's slope jumps. */
 #include <float.h>
 

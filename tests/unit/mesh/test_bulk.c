@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/mesh/bulk.c. */
+/* Mirrors service/core/mesh/bulk.c. */
 #include "check.h"
 #include "mesh/bulk.h"
 #include "shapes/solid_shapes.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/mesh/element.c. */
+/* Mirrors service/core/mesh/element.c. */
 #include <string.h>
 
 #include "check.h"

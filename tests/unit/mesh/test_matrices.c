@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/mesh/matrices.c and sparse.c. */
+/* Mirrors service/core/mesh/matrices.c and sparse.c. */
 #include <string.h>
 
 #include "check.h"

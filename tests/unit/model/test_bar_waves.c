@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/bar_waves.c, twist: the section's constants, modes against Vlasov's equation, static
+/* Mirrors service/core/model/bar_waves.c, twist: the section's constants, modes against Vlasov's equation, static
  * compliances that the modal sums approach, and d'Alembert's waves. */
 #include "check.h"
 #include "model/bar.h"

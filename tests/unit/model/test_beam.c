@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam.c: mass normalisation, limits, symmetry, no
+/* Mirrors service/core/model/beam.c: mass normalisation, limits, symmetry, no
  * overflow. The digits are checked in test_beam_digits.c, the completeness of the roots in
  * test_beam_roots.c. */
 #include "unit/model/beam_cases.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam_statics.c: closed forms, exact digits, and the modal sum, which the
+/* Mirrors service/core/model/beam_statics.c: closed forms, exact digits, and the modal sum, which the
  * compliance must complete. */
 #include "unit/model/beam_cases.h"
 

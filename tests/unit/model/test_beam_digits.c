@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam.c: frequencies and shapes against the digits
+/* Mirrors service/core/model/beam.c: frequencies and shapes against the digits
  * of others. */
 #include "unit/model/beam_cases.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam.c: no root is missed, none is doubled. */
+/* Mirrors service/core/model/beam.c: no root is missed, none is doubled. */
 #include "check.h"
 #include "model/beam.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam_statics.c: shear factors. */
+/* Mirrors service/core/model/beam_statics.c: shear factors. */
 #include "unit/model/beam_cases.h"
 
 /* Round nu: 6(1 + nu)/(7 + 6 nu) and 10(1 + nu)/(12 + 11 nu) as fractions. */

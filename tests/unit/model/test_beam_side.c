@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/beam_statics.c: the field of a bent bar. Its compliance is checked against
+/* Mirrors service/core/model/beam_statics.c: the field of a bent bar. Its compliance is checked against
  * meshes (physics/mesh/test_beam_sides). */
 #include "check.h"
 #include "model/bar.h"

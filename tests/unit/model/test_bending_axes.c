@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/bending_axes.c: a load across a round beam excites one family alone after
+/* Mirrors service/core/model/bending_axes.c: a load across a round beam excites one family alone after
  * the turn, with the same compliance, and turning back is the inverse. */
 #include "check.h"
 #include "model/bar.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/body_kind.c: every kind of the list says all that is asked of it, under a
+/* Mirrors service/core/model/body_kind.c: every kind of the list says all that is asked of it, under a
  * name and a number of its own. */
 #include <string.h>
 

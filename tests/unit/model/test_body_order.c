@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/body.c, orders: what is told of it while others listen. */
+/* Mirrors service/core/model/body.c, orders: what is told of it while others listen. */
 #include "model/body.h"
 
 #include <pthread.h>

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
+/* Mirrors service/core/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
  * stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
 #include "check.h"
 #include "fe/boussinesq.h"

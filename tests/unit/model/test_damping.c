@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/damping.c: whose ratio is whose, and what a variation makes of them. */
+/* Mirrors service/core/model/damping.c: whose ratio is whose, and what a variation makes of them. */
 #include "model/damping.h"
 
 #include <string.h>

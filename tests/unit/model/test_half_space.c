@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/half_space.c: Rayleigh's speed, the radiated power by a contour in the
+/* Mirrors service/core/model/half_space.c: Rayleigh's speed, the radiated power by a contour in the
  * complex plane, and what of it runs off as which wave. */
 #include <complex.h>
 

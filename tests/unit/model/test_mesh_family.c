@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/mesh_family.c: a half-space's field beside a smooth one, given at sites, is what comes back
+/* Mirrors service/core/model/mesh_family.c: a half-space's field beside a smooth one, given at sites, is what comes back
  * between them. */
 #include "model/mesh_family.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/modal_basis.c and bar_waves.c: which families a load
+/* Mirrors service/core/model/modal_basis.c and bar_waves.c: which families a load
  * drives, frequencies and participations of rods in closed form, and compliances that the modal
  * sums approach. */
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/plate.c: the limits of large plates and long bars in closed form. */
+/* Mirrors service/core/model/plate.c: the limits of large plates and long bars in closed form. */
 #include "model/plate.h"
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/rigid.c: inverse masses and velocity changes from the mass matrix written
+/* Mirrors service/core/model/rigid.c: inverse masses and velocity changes from the mass matrix written
  * out, for free, pinned and held bodies. */
 #include "check.h"
 #include "model/rigid.h"

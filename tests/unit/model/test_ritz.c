@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/ritz.c: closed forms, Leissa's plates, meshes of finite elements, and what
+/* Mirrors service/core/model/ritz.c: closed forms, Leissa's plates, meshes of finite elements, and what
  * may not matter: axes, mirrors, the sum over modes. */
 #include "model/ritz.h"
 

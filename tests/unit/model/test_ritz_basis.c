@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/ritz_basis.c, polynomials: orthonormal in the mean, and derivatives by differences. */
+/* Mirrors service/core/model/ritz_basis.c, polynomials: orthonormal in the mean, and derivatives by differences. */
 #include "model/ritz_basis.h"
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/ritz_store.c: computed once for all threads, stopped, held and forgotten.
+/* Mirrors service/core/model/ritz_store.c: computed once for all threads, stopped, held and forgotten.
  */
 #include "model/ritz_store.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/site.c: faces, normals, curvatures and edges of every shape, in any pose,
+/* Mirrors service/core/model/site.c: faces, normals, curvatures and edges of every shape, in any pose,
  * and what is refused with which words. */
 #include <string.h>
 

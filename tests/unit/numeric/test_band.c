@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/band.c: solutions against elimination, a factor whose leading part is
+/* Mirrors service/core/numeric/band.c: solutions against elimination, a factor whose leading part is
  * kept, refusals. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/dense.c. */
+/* Mirrors service/core/numeric/dense.c. */
 #include "check.h"
 #include "numeric/dense.h"
 

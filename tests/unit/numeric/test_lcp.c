@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/lcp.c: Lemke's method judged by the complementarity of its answers. */
+/* Mirrors service/core/numeric/lcp.c: Lemke's method judged by the complementarity of its answers. */
 #include <string.h>
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/linear.c: elimination, symmetric eigenvalues, pseudo-inverse. */
+/* Mirrors service/core/numeric/linear.c: elimination, symmetric eigenvalues, pseudo-inverse. */
 #include <string.h>
 
 #include "check.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/ode.c: CVODE behind four verbs, on problems with closed solutions. */
+/* Mirrors service/core/numeric/ode.c: CVODE behind four verbs, on problems with closed solutions. */
 #include "check.h"
 #include "numeric/ode.h"
 

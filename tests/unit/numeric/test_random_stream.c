@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/random_stream.c: the published vector of Philox 4x64-10, uniformity, and
+/* Mirrors service/core/numeric/random_stream.c: the published vector of Philox 4x64-10, uniformity, and
  * permutations. */
 #include <string.h>
 

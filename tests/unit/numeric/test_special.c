@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/special.c: distribution functions against exact values, Carlson's
+/* Mirrors service/core/numeric/special.c: distribution functions against exact values, Carlson's
  * integrals against mpmath and identities. */
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/numeric/spline.c: order, monotony, continuity, and the straight end. */
+/* Mirrors service/core/numeric/spline.c: order, monotony, continuity, and the straight end. */
 #include "check.h"
 #include "numeric/spline.h"
 

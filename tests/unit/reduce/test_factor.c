@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/factor.c. */
+/* Mirrors service/tools/reduce/factor.c. */
 #include <string.h>
 
 #include "check.h"

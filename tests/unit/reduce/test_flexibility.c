@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/flexibility.c: against solutions for cylinders and spheres by other
+/* Mirrors service/tools/reduce/flexibility.c: against solutions for cylinders and spheres by other
  * methods (fe/matched.h), a uniform load, reciprocity. */
 #include "fe/matched.h"
 #include "unit/mesh/blocks.h"

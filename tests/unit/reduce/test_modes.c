@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/modes.c and lanczos.c. */
+/* Mirrors service/tools/reduce/modes.c and lanczos.c. */
 #include <string.h>
 
 #include "unit/reduce/solve_mesh.h"

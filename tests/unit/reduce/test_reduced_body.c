@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/reduced_body.c. */
+/* Mirrors service/tools/reduce/reduced_body.c. */
 #include <string.h>
 
 #include "reduce/reduced_body.h"

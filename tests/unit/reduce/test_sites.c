@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/sites.c and site_field.c: the flexibility that faces interpolate against
+/* Mirrors service/tools/reduce/sites.c and site_field.c: the flexibility that faces interpolate against
  * the one solved for in the same place. */
 #include "reduce/site_field.h"
 #include "reduce/sites.h"

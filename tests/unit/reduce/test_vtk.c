@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/vtk.c. */
+/* Mirrors service/tools/reduce/vtk.c. */
 #include <string.h>
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/assemble.c: which modes take part, and the residual flexibility of the
+/* Mirrors service/core/solve/assemble.c: which modes take part, and the residual flexibility of the
  * rest. */
 #include "model/bar.h"
 #include "physics/support.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/attempt.c: the care of a solution, when it is solved again, its first
+/* Mirrors service/core/solve/error/attempt.c: the care of a solution, when it is solved again, its first
  * steps; a truncated scene is as flexible, and its missing modes have the allowed effect. */
 #include "solve/error/attempt.h"
 #include "unit/solve/search_lab.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/finite_element.c: requests answered by complete finite elements. */
+/* Mirrors service/core/solve/finite_element.c: requests answered by complete finite elements. */
 #include "physics/support.h"
 
 static struct solve_result result;

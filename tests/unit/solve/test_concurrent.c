@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/finite_element.c and service/impact/concurrent.c: the contact region solved
+/* Mirrors service/core/solve/finite_element.c and service/core/impact/concurrent.c: the contact region solved
  * within the time integration. */
 #include "physics/support.h"
 

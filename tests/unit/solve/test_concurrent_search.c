@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/finite_element.c: known limits of steps and meshes, and a budget. */
+/* Mirrors service/core/solve/finite_element.c: known limits of steps and meshes, and a budget. */
 #include "physics/support.h"
 #include "solve/finite_element.h"
 

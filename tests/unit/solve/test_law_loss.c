@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/law.c: how much lower a restitution is for what materials lose of
+/* Mirrors service/core/solve/error/law.c: how much lower a restitution is for what materials lose of
  * themselves, against contacts that are integrated with it, and where it is said. */
 #include "physics/support.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/mode_choice.c: which modes of a mesh are left out, that the answer does not
+/* Mirrors service/core/solve/mode_choice.c: which modes of a mesh are left out, that the answer does not
  * notice, and where the body is expected to come back. */
 #include "bodies/made_mesh.h"
 #include "model/bar.h"

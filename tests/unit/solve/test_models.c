@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/models.c and deviation.c: what complete
+/* Mirrors service/core/solve/error/models.c and deviation.c: what complete
  * finite elements and three-dimensional meshes find lies within the total that is stated, and that
  * is no wider than it needs to be. */
 #include "physics/support.h"

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/neighbours.c: ranges of solutions whose numbers are written down
+/* Mirrors service/core/solve/error/neighbours.c: ranges of solutions whose numbers are written down
  * here. */
 #include "check.h"
 #include "solve/error/neighbours.h"

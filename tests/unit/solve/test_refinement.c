@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/refinement.c: which contacts are taken for sequences, and that the
+/* Mirrors service/core/solve/error/refinement.c: which contacts are taken for sequences, and that the
  * errors of modes, of steps and of a sequence of sub-impacts are no less than the distance from a
  * solution with hundreds of modes or far shorter steps. */
 #include "solve/error/attempt.h"

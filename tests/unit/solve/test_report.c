@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/report.c and validity.c: what an answer says about itself. */
+/* Mirrors service/core/solve/report.c and validity.c: what an answer says about itself. */
 #include "physics/support.h"
 
 static struct solve_result result;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/error/total.c: a single contact's errors are those of its restitution;
+/* Mirrors service/core/solve/error/total.c: a single contact's errors are those of its restitution;
  * those of a long row say what is known of it where the restitution's says nothing. */
 #include "physics/support.h"
 

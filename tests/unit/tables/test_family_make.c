@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/tables/family_make.c: the mesh's error goes, what is beyond
+/* Mirrors service/tools/tables/family_make.c: the mesh's error goes, what is beyond
  * the computed depths follows the powers that are known, nothing gives back more than it took; and
  * the shipped family is what the program computes. */
 #include <string.h>

@@ -99,7 +99,7 @@ static void find_size(const struct problem *problem, const struct impact_outcome
 }
 
 /* On a mesh: a contact wider than half its distance from an edge, or nearer to it than the
- * element there is long (service/reduce), and a site whose surface is declared otherwise than it is
+ * element there is long (service/tools/reduce), and a site whose surface is declared otherwise than it is
  * or is not well known. */
 static void find_mesh_place(const struct problem *problem, size_t c, unsigned which,
                             double half_axis, struct warnings *warnings)
