@@ -8,9 +8,8 @@
 #include "base/arena.h"
 #include "ensemble/extras.h"
 #include "ensemble/indices.h"
-#include "ensemble/influence.h"
 #include "ensemble/interval.h"
-#include "ensemble/shape.h"
+#include "ensemble/summary.h"
 
 enum {
     REPORT_QUANTITIES = 4,

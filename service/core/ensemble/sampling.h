@@ -2,12 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Points of the unit cube, each a function of its index: plain random points, Latin hypercubes,
- * Sobol's sequence. The latter two come as independent replicates (another permutation, another
- * random scrambling), side by side: point i belongs to replicate i mod R. Their spread tells the
- * error of averages over all of them. */
+ * Sobol's sequence; and their correlation. Latin hypercubes and Sobol's sequence come as
+ * independent replicates (another permutation, another random scrambling), side by side: point i
+ * belongs to replicate i mod R. Their spread tells the error of averages over all of them. */
 #ifndef PERCUSS_ENSEMBLE_SAMPLING_H
 #define PERCUSS_ENSEMBLE_SAMPLING_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -60,5 +61,27 @@ enum percuss_status sampling_create(struct sampling *sampling, enum sampling_met
 
 /* Point `index` < count: `dimensions` numbers in (0, 1). */
 void sampling_point(const struct sampling *sampling, uint64_t index, double *point);
+
+/* Correlated inputs by a Gaussian copula: the coefficients are those of the normal scores, whatever
+ * the distributions are. */
+
+struct copula_pair {
+    size_t first, second; /* dimensions */
+    double coefficient;   /* -1 .. 1 */
+};
+
+struct copula {
+    size_t dimensions;
+    double *factor; /* Cholesky factor, dimensions^2; NULL: independent */
+};
+
+/* Of the pairs given, all others independent. BAD_REQUEST if no such distribution exists. */
+enum percuss_status copula_create(struct copula *copula, size_t dimensions,
+                                  const struct copula_pair *pairs, size_t pair_count,
+                                  struct fault *fault);
+void copula_release(struct copula *copula);
+
+/* Makes independent uniform numbers correlated, in place. */
+void copula_apply(const struct copula *copula, double *point);
 
 #endif

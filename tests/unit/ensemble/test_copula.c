@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/ensemble/copula.c: normal scores have the coefficients asked for. */
+/* Mirrors service/core/ensemble/sampling.c: normal scores have the coefficients asked for. */
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/copula.h"
 #include "ensemble/sampling.h"
 #include "numeric/special.h"
 

@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/ensemble/influence.c: where a function is rough. */
+/* Mirrors service/core/ensemble/indices.c: where a function is rough. */
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/influence.h"
+#include "ensemble/indices.h"
 #include "numeric/random_stream.h"
 
 enum { N = 20000 };

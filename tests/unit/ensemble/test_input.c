@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/ensemble/input.c: quantile functions against closed forms, and refusals. */
+/* Mirrors service/core/ensemble/spec.c: quantile functions against closed forms, and refusals. */
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/input.h"
+#include "ensemble/spec.h"
 #include "numeric/special.h"
 
 static struct ensemble_input make(enum input_quantity quantity, enum distribution distribution,

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/input.h"
 #include "ensemble/interval.h"
 #include "ensemble/sampling.h"
+#include "ensemble/spec.h"
 
 #define agrees(value, expected) near(value, expected, 1e-10 * fmax(1.0, fabs(expected)))
 

@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/ensemble/shape.c: intervals by hand, Beta fits of Beta and of other samples. */
+/* Mirrors service/core/ensemble/summary.c: intervals by hand, Beta fits of Beta and of other samples. */
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/shape.h"
+#include "ensemble/summary.h"
 #include "numeric/special.h"
 
 static const struct shape_range unit = {0.0, 1.0};
