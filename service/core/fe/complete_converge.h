@@ -6,8 +6,19 @@
 #ifndef PERCUSS_FE_COMPLETE_CONVERGE_H
 #define PERCUSS_FE_COMPLETE_CONVERGE_H
 
+#include <stdbool.h>
+
 #include "fe/impact_complete.h"
 #include "fe/swing.h"
+
+/* One impact on meshes that differ in the places of their nodes: its mean. */
+
+/* Mean of `count` results, > 0, by weights >= 0 with the sum 1. Impulses, energies, times and
+ * lengths are means, so that sums and balances of each hold for it; counts are those of the result
+ * of the largest weight, momentum_error the worst. False: they differ in their sub-impacts' number
+ * or their ends, and have no mean. */
+bool complete_mean(const struct complete_result *results, const double *weights, size_t count,
+                   struct complete_result *mean);
 
 enum { COMPLETE_MESHES = 3 };
 

@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "fe/plasticity.h"
-#include "fe/quad_dynamics.h"
+#include "fe/quad.h"
 
 enum { FE_LANES = 4, QUAD_ENTRIES = QUAD_FREEDOMS * (QUAD_FREEDOMS + 1) / 2 };
 

@@ -1,9 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/fe/complete_mean.c: sums and balances hold for a mean as for what it is of. */
+/* Mirrors service/core/fe/complete_converge.c: sums and balances hold for a mean as for what it is of.
+ */
 #include "check.h"
-#include "fe/complete_mean.h"
+#include "fe/complete_converge.h"
 
 static struct complete_result known(double impulse)
 {

@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/fe/quad_dynamics.c: patch test, rank, volume, thick tube of incompressible
+/* Mirrors service/core/fe/quad.c: patch test, rank, volume, thick tube of incompressible
  * material. */
 #include <string.h>
 
 #include "check.h"
-#include "fe/quad_dynamics.h"
+#include "fe/quad.h"
 #include "numeric/linear.h"
 
 static const struct material aluminium = {"al", 70e9, 0.33, 2700.0, INFINITY, 0.0};
