@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The entry of a body from a mesh in a catalogue, beside its keys: its file, and named sites. */
+/* The entry of a body from a mesh in a catalogue, beside its keys: its file, the order of its
+ * reduction where the file is a mesh, and named sites. */
 #ifndef PERCUSS_CATALOGUE_MESH_ENTRY_H
 #define PERCUSS_CATALOGUE_MESH_ENTRY_H
 

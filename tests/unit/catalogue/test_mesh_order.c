@@ -1,8 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* catalogue/mesh_order: bodies whose files are not there, or not yet. */
-#include "catalogue/mesh_order.h"
+/* Mirrors the orders of service/catalogue/mesh_entry.c: bodies whose files are not there, or not
+ * yet. */
+#include "catalogue/mesh_entry.h"
 
 #include <unistd.h>
 
