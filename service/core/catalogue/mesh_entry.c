@@ -16,7 +16,7 @@
 #include "catalogue/names.h"
 #include "catalogue/shipped.h"
 #include "mesh/body_file.h"
-#include "mesh/mesh_digest.h"
+#include "mesh/mesh_read.h"
 #include "model/key.h"
 #include "model/mesh_surface.h"
 #include "model/vector.h"

@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <stdlib.h>
 
-/* What MUMPS calls its controls, counted from one as in its manual. */
+/* Numbers of MUMPS's controls, counted from one as in its manual. */
 enum { ERRORS = 1, DIAGNOSTICS = 2, GLOBAL = 3, LEVEL = 4 };
 enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14 };
 enum { INITIALISE = -1, FINISH = -2, ANALYSE = 1, FACTOR = 2, SOLVE = 3 };
@@ -32,7 +32,7 @@ static enum percuss_status no_memory(struct fault *fault)
     return fault_set(fault, PERCUSS_INTERNAL, "out of memory for the factor of a mesh");
 }
 
-/* What MUMPS says of its last job; -13 and the like are its words for memory. */
+/* Status of MUMPS's last job; -13 and the like stand for memory. */
 static enum percuss_status outcome(const struct factor *factor, struct fault *fault)
 {
     int code = factor->mumps.infog[0];

@@ -27,16 +27,16 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
 
 struct factor_cost factor_cost(const struct factor *factor);
 
-/* Factors K + shift M (1/s^2), instead of what was factored before. PERCUSS_BAD_REQUEST: singular,
+/* Factors K + shift M (1/s^2), in place of the previous factor. PERCUSS_BAD_REQUEST: singular,
  * or not positive definite where it must be. */
 enum percuss_status factor_compute(struct factor *factor, double shift, struct fault *fault);
 
-/* Solves in place for `count` right-hand sides, one after the other. What stands at held degrees of
- * freedom is taken for zero. */
+/* Solves in place for `count` right-hand sides, one after the other. Values at held degrees of
+ * freedom are taken for zero. */
 enum percuss_status factor_solve(struct factor *factor, size_t count, double *b,
                                  struct fault *fault);
 
-/* Eigenvalues below zero of what was factored: by Sylvester's law of inertia the eigenvalues of K
+/* Eigenvalues below zero of the factored matrix: by Sylvester's law of inertia the eigenvalues of K
  * x = w^2 M x below -shift. */
 size_t factor_negatives(const struct factor *factor);
 

@@ -19,10 +19,10 @@
  * where that is as many radii of a triangle; nearer ones are split. */
 static const double SURFACE_FAR = 6.0;
 /* Triangles of this part of a face or smaller are not split any more: where the place lies within
- * one the face is plane, t bounded and u like 1/r, and what is wrong is the part of a part. */
+ * one the face is plane, t bounded and u like 1/r, and the error is the part of a part. */
 enum { SURFACE_SPLITS = 7 };
 
-/* what is summed for one place and face */
+/* sums for one place and face */
 struct surface_sum {
     const struct flexibility_place *place;
     int count; /* nodes of the face */
@@ -229,7 +229,7 @@ static double flexibility_surface_add(const struct surface_rule *rule,
 
 /* ---- integrals over the volume: rule ---- */
 
-/* An element whose distance from the place is less than so many radii is split: its displacements,
+/* An element nearer to the place than so many radii is split: its displacements,
  * like 1/r, matter by (h / body)^2 to the whole, and 1e-3 of that is left. */
 static const double VOLUME_FAR = 2.0;
 enum { VOLUME_SPLITS = 2 };
@@ -276,7 +276,7 @@ static void volume_fill_element(struct volume_rule *rule, size_t element)
 
 static bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
 {
-    /* room for what there is one of an element */
+    /* arrays with one entry an element */
     size_t count = mesh->element_count, total = 0;
     *rule = (struct volume_rule){.mesh = mesh};
     rule->rules = malloc(VOLUME_RULE_TYPES * sizeof *rule->rules);
@@ -313,7 +313,7 @@ struct piece {
     double corners[4][3];
 };
 
-/* what is summed for one place and element */
+/* sums for one place and element */
 struct mass_sum {
     const struct flexibility_place *place;
     const struct element_rule *rule;
@@ -566,7 +566,7 @@ static double flexibility_volume_add_shifts(const struct volume_rule *rule, cons
 /* Nodal forces out of balance by more than this part of the force mean a surface that is not
  * closed or not the mesh's own; quadrature leaves less than 1e-7. */
 static const double MOST_IMBALANCE = 1e-6;
-/* Iterations end when a step does this part of the work: what is wrong then is of its square. */
+/* Iterations end when a step does this part of the work: the error then is of its square. */
 static const double SMALLEST_STEP = 1e-6;
 /* a step leaves shift / (shift + next eigenvalue), at most half with a shift at the first one */
 enum { MOST_STEPS = 60 };
@@ -695,8 +695,8 @@ static double hold_nodes(const struct flexibility *f, const struct flexibility_p
     return value;
 }
 
-/* integrals of the half-space's field: nodal forces, what mass feels, w without x and Psi; returns
- * C without what those add */
+/* integrals of the half-space's field: nodal forces, the momenta of the mass, w without x and Psi;
+ * returns C without their parts */
 static double integrate_field(const struct flexibility *f, const struct flexibility_place *place,
                               double *force, double *momentum, double *rest)
 {
@@ -725,7 +725,7 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
     dense_combine(mass_psi, -1.0, all_own, 1.0, count, f->force);
     dense_combine(psi, -1.0, all_g, 1.0, count, f->rest);
 
-    /* what the modes have to do with C */
+    /* the modes' part of C */
     for (size_t c = 0; c < count; c++) {
         const double *own = all_own + c * psi_count, *g = all_g + c * psi_count;
         double load = 0.0, off = 0.0;
@@ -745,7 +745,7 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
 }
 
 /* One step for all columns: (K + s M) y = f + s M x, y without Psi, then x = y. Adds s x.M (y - x)
- * to f.y, whose error is then of the square of y's; `work` and `step` are those two terms. */
+ * to f.y: its error is then of the square of y's; `work` and `step` are those two terms. */
 static enum percuss_status advance_columns(struct flexibility *f, size_t count, double *work,
                                            double *step, struct fault *fault)
 {

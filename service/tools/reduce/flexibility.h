@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The regular static flexibility of a meshed body: what a force of 1 N at a place of its surface
- * moves that place, beyond the half-space's own local indentation and without rigid motion and the
- * first modes.
+/* The regular static flexibility of a meshed body: how far a force of 1 N at a place of its
+ * surface moves that place, beyond the half-space's own local indentation and without rigid motion
+ * and the first modes.
  *
  * The half-space's field u_B of the force (boussinesq3.h) is split off; the smooth rest w = x -
  * Psi g is solved for on the mesh, which needs no refinement about the place. With t the field's
@@ -53,7 +53,7 @@ struct flexibility;
 struct flexibility *flexibility_make(const struct flexibility_body *body);
 void flexibility_free(struct flexibility *flexibility);
 
-/* What the body's surface is like. */
+/* Quadrature and edges of the body's surface. */
 const struct surface_rule *flexibility_rule(const struct flexibility *flexibility);
 const struct flexibility_edges *flexibility_edges(const struct flexibility *flexibility);
 
@@ -66,7 +66,7 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
  */
 double flexibility_slope(double young, double poisson, double mean_curvature);
 
-/* What a contact of the radius a has more than C(a): its pressure is Hertz's, a mean of ln r, and
+/* Flexibility of a contact of the radius a less C(a): its pressure is Hertz's, a mean of ln r, and
  * normal to the surface everywhere, which tilts it, m/N. */
 double flexibility_of_contact(double young, double poisson, double mean_curvature);
 
@@ -74,8 +74,9 @@ double flexibility_of_contact(double young, double poisson, double mean_curvatur
 double flexibility_mode(const struct flexibility *flexibility, size_t mode,
                         const struct flexibility_place *place);
 
-/* What the force at places[solved] of the last flexibility_solve moves another place along its own
- * inward normal, the half-space's field included, without rigid motion and removed modes, m/N. */
+/* How far the force at places[solved] of the last flexibility_solve moves another place along the
+ * place's inward normal, the half-space's field included, without rigid motion and removed modes,
+ * m/N. */
 double flexibility_response(const struct flexibility *flexibility, size_t solved,
                             const struct flexibility_place *other);
 

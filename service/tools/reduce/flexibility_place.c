@@ -127,7 +127,7 @@ static void surface_rule_fill_face(struct surface_rule *rule, size_t face)
 bool surface_rule_make(struct surface_rule *rule, const struct solid_mesh *mesh,
                        const struct surface *surface)
 {
-    /* room for what there is one of a face */
+    /* arrays with one entry a face */
     size_t faces = surface->face_count, total = 0;
     *rule = (struct surface_rule){.mesh = mesh, .surface = surface};
     rule->first = malloc((faces + 1) * sizeof *rule->first);
@@ -242,7 +242,7 @@ static bool is_flat_face(int count, const double (*nodes)[3], double radius)
     return true;
 }
 
-/* patches whose points all lie in the tangent plane of the first */
+/* patches with all points in the tangent plane of the first */
 static void find_plane_patches(const struct surface_rule *rule, bool *plane)
 {
     const struct surface *surface = rule->surface;
@@ -298,7 +298,7 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
     size_t count = collect_edges(rule->surface, all);
     qsort(all, count, sizeof *all, half_edge_compare);
 
-    /* an edge of two faces of one patch is none; what is left moves to the front */
+    /* an edge of two faces of one patch is none; the others move to the front */
     size_t kept = 0;
     for (size_t i = 0; i < count;) {
         size_t next = i + 1;
@@ -456,7 +456,7 @@ static void measure_rim(int count, double derivative[5][3], double u, double v, 
 }
 
 /* Half the height above the tangent plane of the lowest surface that is seen from the point within
- * 45 degrees of its normal. Nodes may miss what is nearer than their distance from each other:
+ * 45 degrees of its normal. Nodes may miss a surface nearer than their distance from each other:
  * within it the cone is a cylinder, which starts above the waves of a coarse mesh. */
 static double find_reach(const struct surface_rule *rule, const struct boussinesq3 *load)
 {
@@ -475,7 +475,7 @@ static double find_reach(const struct surface_rule *rule, const struct boussines
 }
 
 /* Depth of the nearest surface that faces the other way, seen within some 17 degrees of the inward
- * normal: of what rises beside an edge none counts. */
+ * normal: surfaces that rise beside an edge do not count. */
 static double find_wall(const struct surface_rule *rule, const struct boussinesq3 *load)
 {
     double size = rule->surface->size, nearest = INFINITY;

@@ -58,7 +58,7 @@ struct flexibility_place {
     size_t face;
     double u, v;             /* local coordinates */
     struct boussinesq3 load; /* along the inward normal of the mesh's own face */
-    size_t part;             /* of the mesh: whose material the load has */
+    size_t part;             /* of the mesh: the load has its material */
     bool flat;               /* the face is plane */
     double bend;             /* mean curvature of the mesh's face, > 0 where convex, 1/m */
     double rim;              /* the face's radius about the point: mean of its logarithm, m */
@@ -68,13 +68,13 @@ struct flexibility_place {
     double element;          /* mean edge of the face, m */
 };
 
-/* The wall is too thin for the mesh: elements 2.5 times as long and longer. Of what plates of 1 and
- * 2 mm give way between their modes the mesh's own solution misses 2 % with elements 1.5 times as
- * long as they are thick, 4 to 10 % (twice), 34 to 40 % (4 times), 55 % (8 times). */
+/* The wall is too thin for the mesh: elements 2.5 times as long and longer. Of the compliance of
+ * plates of 1 and 2 mm without their modes the mesh's own solution misses 2 % with elements 1.5
+ * times as long as they are thick, 4 to 10 % (twice), 34 to 40 % (4 times), 55 % (8 times). */
 bool flexibility_place_thin(const struct flexibility_place *place);
 
-/* What the patches of a surface are like. Sharp edges are those that a patch has alone. Owns its
- * arrays. */
+/* Patches of a surface and their sharp edges. Sharp edges are those that a patch has alone. Owns
+ * its arrays. */
 struct flexibility_edges {
     size_t count;
     double (*points)[3][3]; /* [count]: end, middle, end, m */

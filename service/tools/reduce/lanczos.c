@@ -10,7 +10,7 @@
 #include "numeric/linear.h"
 #include "numeric/random_stream.h"
 
-/* Parts of what A x was, and of what a random vector was, below which rounding is all that is left.
+/* Parts of the norm of A x, and of that of a random vector, below which rounding alone remains.
  */
 static const double LOST = 1e-13, EXHAUSTED = 1e-8;
 
@@ -24,7 +24,7 @@ struct lanczos {
     double *basis;          /* [room][n] */
     double *next, *massive; /* [LANCZOS_BLOCK][n]: the next block, and M times it */
     double *projection;     /* [room][room], T by rows, symmetric */
-    double beta[LANCZOS_BLOCK * LANCZOS_BLOCK]; /* what joins the next block to the last, [j][i] */
+    double beta[LANCZOS_BLOCK * LANCZOS_BLOCK]; /* joins the next block to the last, [j][i] */
     double *products;                           /* [LANCZOS_BLOCK][room + rigid] */
     double *values, *vectors;                   /* of T: [room], [room][room] */
     double largest;                             /* norm of A x seen */
@@ -92,7 +92,8 @@ static void note_products(struct lanczos *state)
                 state->products[j * state->size + newest + i];
 }
 
-/* Orthogonal to rigid motions and to all vectors so far, twice: once loses what cancels. */
+/* Orthogonal to rigid motions and to all vectors so far, twice: one pass loses digits by
+ * cancellation. */
 static void orthogonalise(struct lanczos *state, size_t first, size_t count, bool note)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -220,7 +221,7 @@ static bool look(struct lanczos *state)
 /* One block: A times the newest vectors, made new. */
 static enum percuss_status extend(struct lanczos *state, struct fault *fault)
 {
-    /* M times the newest block is what its orthonormalisation left */
+    /* orthonormalisation left M times the newest block */
     memcpy(state->next, state->massive, LANCZOS_BLOCK * state->n * sizeof *state->next);
     enum percuss_status status =
         factor_solve(state->input->factor, LANCZOS_BLOCK, state->next, fault);

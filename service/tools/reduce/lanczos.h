@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Block Lanczos for K x = w^2 M x by (K + s M)^-1 M, whose largest eigenvalues 1/(w^2 + s) are the
+/* Block Lanczos for K x = w^2 M x by (K + s M)^-1 M: its largest eigenvalues 1/(w^2 + s) are the
  * lowest modes (Grimes, Lewis & Simon 1994, SIAM J. Matrix Anal. 15, 228), with full
  * reorthogonalisation in the inner product of M. */
 #ifndef PERCUSS_REDUCE_LANCZOS_H

@@ -30,7 +30,7 @@ double rigid_modes_scale(const struct solid_mesh *mesh, const struct bulk *bulk)
     return 22.4 * 22.4 * speed * thin / (144.0 * longest * longest);
 }
 
-/* Six candidates: shifts along the axes, turns about the nodes' middle; nothing moves what is held.
+/* Six candidates: shifts along the axes, turns about the nodes' middle; held nodes do not move.
  */
 static void fill_rigid(const struct solid_mesh *mesh, const bool *held, double *vectors)
 {
@@ -71,7 +71,7 @@ static bool diagonalise_rigid(const struct sparse *matrix, size_t count, double 
     return true;
 }
 
-/* Makes what is left M-orthonormal, of the largest first; returns how many have mass. */
+/* Makes the remaining vectors M-orthonormal, of the largest first; returns how many have mass. */
 static size_t normalise_rigid(const struct sparse *mass, double *vectors, double *spare)
 {
     double diagonal[RIGID_MOST];

@@ -21,7 +21,7 @@ enum { RIGID_MOST = 6 };
 double rigid_modes_scale(const struct solid_mesh *mesh, const struct bulk *bulk);
 
 /* M-orthonormal vectors that K does not resist, at most six, [count][3 node_count]; `scale` as
- * above tells what counts as no resistance. The vectors are the caller's to free. PERCUSS_INTERNAL
+ * above sets the limit of no resistance. The vectors are the caller's to free. PERCUSS_INTERNAL
  * without memory. */
 enum percuss_status rigid_modes_make(const struct solid_mesh *mesh, const struct matrices *matrices,
                                      double scale, size_t *count, double **vectors,
@@ -40,7 +40,7 @@ struct modes {
     double confirmed_below; /* rad/s */
 };
 
-/* What is sought, and of what. All is borrowed. */
+/* The wanted modes and their matrices. All is borrowed. */
 struct modes_task {
     const struct matrices *matrices;
     struct dense rigid;        /* M-orthonormal, see rigid_modes_make */
@@ -48,10 +48,10 @@ struct modes_task {
     double below;              /* rad/s: all modes below; INFINITY: no limit ... */
     size_t most;               /* ... but at most so many */
     size_t known;              /* modes below, once modes_count has counted; SIZE_MAX: it has not */
-    const struct watch *watch; /* told the part done; NULL: nobody asks */
+    const struct watch *watch; /* told the part done; NULL: no watch */
 };
 
-/* What it takes, known from the order of unknowns alone. */
+/* Memory and time of the search, known from the order of unknowns alone. */
 struct modes_cost {
     double memory;  /* bytes at the peak */
     double seconds; /* on one core of some 2020: to a factor of two or so */
@@ -63,7 +63,7 @@ enum percuss_status modes_count(const struct modes_task *task, double omega, siz
                                 struct fault *fault);
 
 /* Frequencies within 1e-3 stay together where `most` would cut between them: then there are a few
- * modes more, or fewer. `factor` becomes that of K + shift M, for what comes after: the caller's to
+ * modes more, or fewer. `factor` becomes that of K + shift M, for later use: the caller's to
  * free. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has fewer modes, or
  * its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when the number of
  * modes is not confirmed however often they are sought. */

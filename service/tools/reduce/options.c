@@ -265,7 +265,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
-    /* what is written */
+    /* output */
     case 'o':
         options->body = text;
         return 0;
@@ -287,7 +287,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         read_lengths(state, options);
         check(state, options);
         return 0;
-    /* what it is made of, and how */
+    /* materials, matrices and method */
     default:
         if (parse_material(key, text, state) == 0 || parse_matrices(key, text, state) == 0)
             return 0;

@@ -50,7 +50,7 @@ static void name_matrix(const struct sparse *matrix, struct sha256 *hash)
     sha256_add(hash, matrix->value, matrix->start[matrix->n] * sizeof *matrix->value);
 }
 
-/* What everything in the file follows from. */
+/* Hash of all input that determines the file. */
 static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
 {
     /* the mesh */
@@ -77,7 +77,7 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
         name_matrix(&parts->foreign->stiffness, &hash);
         name_matrix(&parts->foreign->mass, &hash);
     }
-    /* what was asked for */
+    /* the requested sites and modes */
     sha256_add(&hash, parts->sites, parts->site_count * sizeof *parts->sites);
     sha256_add(&hash, &parts->modes->count, sizeof parts->modes->count);
     sha256_end(&hash, text);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Puts together what a body's file holds, but for the flexibility of its surface. */
+/* Puts together the content of a body's file, but for the flexibility of its surface. */
 #ifndef PERCUSS_REDUCE_REDUCED_BODY_H
 #define PERCUSS_REDUCE_REDUCED_BODY_H
 

@@ -136,7 +136,7 @@ static enum percuss_status assign_named_materials(const struct options *options,
     return status;
 }
 
-/* What the command line says wins over what the mesh's file says. PERCUSS_BAD_REQUEST: a part has
+/* Materials of the command line override those of the mesh's file. PERCUSS_BAD_REQUEST: a part has
  * no material, or there is no such part or material. */
 static enum percuss_status materials_assign(const struct options *options, struct solid_mesh *mesh,
                                             struct fault *fault)
@@ -199,7 +199,7 @@ static double frequency_limit(const struct solid_mesh *mesh, double element)
     return slowest / (ELEMENTS_PER_WAVE * element);
 }
 
-/* Sites in metres, which must lie on the surface but for what a file rounds. */
+/* Sites in metres, which must lie on the surface but for the rounding of a file. */
 static enum percuss_status place_sites(struct reduction *reduction, struct fault *fault)
 {
     const struct options *options = reduction->options;
@@ -221,7 +221,7 @@ static enum percuss_status place_sites(struct reduction *reduction, struct fault
 
 static enum percuss_status read_body(struct reduction *reduction, struct fault *fault)
 {
-    /* the mesh, its materials and its surface, each checked by what follows */
+    /* the mesh, its materials and its surface, each checked by the next step */
     const struct options *options = reduction->options;
     struct mesh_options how = {options->unit, options->size * options->unit};
     struct solid_mesh *mesh = &reduction->mesh;
@@ -238,11 +238,11 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
         status = place_sites(reduction, fault);
     if (status)
         return status;
-    /* what is known of it before any matrix */
+    /* figures that need no matrix */
     bulk_of(mesh, &reduction->bulk);
     reduction->enclosed = reduced_body_enclosed(mesh, &reduction->surface);
     reduction->good_to = frequency_limit(mesh, reduction->surface.size);
-    /* what is odd, but allowed */
+    /* odd, but allowed */
     for (size_t i = 0; i < reduction->findings.remark_count; i++)
         fprintf(stderr, "percuss-reduce: warning: %s\n", reduction->findings.remarks[i]);
     return PERCUSS_OK;
@@ -271,7 +271,7 @@ static enum percuss_status hold_sets(struct reduction *reduction, struct fault *
     return status;
 }
 
-/* Foreign matrices that are not those of this mesh: what their diagonals say of the frequency of an
+/* Foreign matrices that are not those of this mesh: their diagonals give the frequency of an
  * element by itself, against a shear wave across it. */
 static enum percuss_status check_scale(const struct reduction *reduction, struct fault *fault)
 {
@@ -296,7 +296,7 @@ static enum percuss_status check_scale(const struct reduction *reduction, struct
 
 static enum percuss_status assemble_matrices(struct reduction *reduction, struct fault *fault)
 {
-    /* matrices from files, which hold what they hold, or from the mesh */
+    /* matrices from files, with their own held nodes, or from the mesh */
     const struct options *options = reduction->options;
     struct matrices_files files = {options->stiffness, options->mass, options->freedoms};
     enum percuss_status status =
@@ -306,7 +306,7 @@ static enum percuss_status assemble_matrices(struct reduction *reduction, struct
         snprintf(reduction->supports, sizeof reduction->supports, "(matrices)");
     if (!status && files.stiffness)
         status = check_scale(reduction, fault);
-    /* and what the command line holds */
+    /* and the sets that the command line holds */
     if (!status)
         status = hold_sets(reduction, fault);
     if (status)
@@ -337,7 +337,7 @@ static double free_memory(void)
     return 1024.0 * kilobytes;
 }
 
-/* Says what it will take before the first factor, and does not begin what cannot fit. */
+/* Tells time and memory before the first factor, and refuses where the memory does not suffice. */
 static enum percuss_status estimate_cost(struct reduction *reduction, size_t count, bool counted,
                                          struct fault *fault)
 {
@@ -369,7 +369,7 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
 /* Which modes: by number, by frequency, or as far as the mesh is good. */
 static enum percuss_status choose_modes(struct reduction *reduction, struct fault *fault)
 {
-    /* how many at most, and what that takes */
+    /* the largest number, and its cost */
     const struct options *options = reduction->options;
     struct modes_task *task = &reduction->task;
     bool asked = options->max_frequency > 0.0;

@@ -15,11 +15,11 @@
  * then.
  */
 struct progress {
-    const char *label;     /* what is done now */
+    const char *label;     /* of the present stage */
     bool terminal, stages; /* a line for each stage too */
     double pause;          /* s between lines */
     double start, told;    /* s of a clock */
-    double from, share;    /* of the whole: before what is told now, and its own */
+    double from, share;    /* of the whole: before the present stage, and its own */
 };
 
 struct reduction {
@@ -41,14 +41,14 @@ struct reduction {
     struct modes_cost cost;
     struct modes modes;
     struct factor *factor;
-    /* what comes of it */
+    /* results */
     struct mesh_body *body;
     struct sites_report sites;
     double seconds;
 };
 
-/* Everything up to and with the files that were asked for. What is there is told by the report, or
- * the fault; reduction_free afterwards in any case. PERCUSS_BAD_REQUEST: what is wrong with the
+/* Everything up to and with the files that were asked for. The report tells the results, the
+ * fault the error; reduction_free afterwards in any case. PERCUSS_BAD_REQUEST: an error of the
  * mesh or the options; PERCUSS_INTERNAL without memory. */
 enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
                                   struct fault *fault);

@@ -20,7 +20,7 @@ enum { POLYNOMIALS = 20 }; /* cubic ones of three coordinates */
 static const size_t FEWEST[4] = {1, 5, 12, 20};
 static const size_t OF_DEGREE[4] = {1, 4, 10, 20};
 /* Beside the sum of the weights. On a surface not all polynomials of space differ: of those that
- * say the same this takes the smallest; what it costs is its part of the value. */
+ * say the same this takes the smallest; its cost is its part of the value. */
 static const double RIDGE = 1e-7;
 /* of the distance to the farthest neighbour: a place within it has its own value */
 static const double OWN_VALUE = 0.02;
@@ -171,7 +171,7 @@ static bool weigh_neighbours(const struct site_field *field, const double x[3],
     return true;
 }
 
-/* what a place's value and edge terms are beyond those of its neighbours */
+/* a place's value and edge terms less those interpolated from its neighbours */
 static bool left_out(const struct site_field *field, size_t place,
                      double differences[1 + SITE_FIELD_EDGE_TERMS])
 {
@@ -194,7 +194,7 @@ static bool left_out(const struct site_field *field, size_t place,
     return true;
 }
 
-/* least squares of what is left out, by patches; all that is summed is linear in the coefficients
+/* least squares of these differences, by patches; all that is summed is linear in the coefficients
  */
 static bool fit_edges(struct site_field *field, size_t patch_count)
 {
@@ -218,7 +218,7 @@ static bool fit_edges(struct site_field *field, size_t patch_count)
         }
     }
     for (size_t p = 0; p < patch_count; p++) {
-        /* two terms that say the same share what they say */
+        /* equal terms share their coefficient */
         double ridge = 0.0;
         for (int t = 0; t < N; t++)
             ridge += 1e-6 * matrix[p][t * N + t];
@@ -313,7 +313,7 @@ struct edge_fit {
     struct edge_row *rows;
 };
 
-/* Of what the gradient was at first, squared: far below what a flexibility is known to. */
+/* Of the first gradient, squared: far below the accuracy of a flexibility. */
 static const double SETTLED = 1e-20;
 /* Neighbours alone are coupled, so that far fewer steps settle it. */
 enum { FIT_STEPS = 500 };
@@ -368,7 +368,7 @@ static bool edge_fit_solve(const struct edge_fit *fit, size_t count, double own,
     double *residual = memory, *along = memory + count, *product = memory + 2 * count;
     if (!memory)
         return false;
-    /* what the rows ask beyond the values that there are: own weights ask nothing yet */
+    /* residual of the rows at the given values: own weights add nothing yet */
     fit_multiply(fit, values, product);
     for (size_t r = 0; r < fit->count; r++)
         for (size_t i = 0; i < fit->rows[r].count; i++)
@@ -400,8 +400,8 @@ static bool edge_fit_solve(const struct edge_fit *fit, size_t count, double own,
 /* of the mesh's edges: nodes nearer to a sharp edge than this get values by fit: on the edge and in
  * the middle of a face at it */
 static const double FITTED_TO = 0.6;
-/* how much the mean of what is known about a node weighs beside one point of its face, where shape
- * functions of the order of 0.1 are what is fitted: it decides only where the points say nothing */
+/* how much the mean of the values about a node weighs beside one point of its face, where shape
+ * functions of the order of 0.1 are fitted: it decides only where the points say nothing */
 static const double MEAN_WEIGHT = 1e-4;
 
 /* and a place that was solved for */
@@ -439,7 +439,7 @@ struct group {
     double *known; /* [nodes], of those of the group's faces */
     size_t *index; /* [nodes]: which unknown a node is; NODE_KNOWN, NODE_ELSEWHERE */
     size_t unknowns;
-    double *values, *weights; /* [unknowns]: means of what is known about them */
+    double *values, *weights; /* [unknowns]: means of the values about them */
     struct edge_fit fit;
 };
 static const size_t NODE_KNOWN = (size_t)-1, NODE_ELSEWHERE = (size_t)-2;
@@ -492,7 +492,7 @@ static double field_at_point(const struct group *group, size_t face, const doubl
     return value;
 }
 
-/* What the shape functions make of the nodes' values at a point of a face is to be the value.
+/* Adds a row: the shape functions' sum of the nodes' values at a point of a face equals the value.
  * False: out of memory. */
 static bool add_row(struct group *group, size_t face, const double at[2], double value,
                     double weight)
@@ -542,8 +542,8 @@ static bool add_rows(struct group *group, size_t face)
     return good;
 }
 
-/* What was solved for, in its own place: also nearer to the edge than the field is known, where
- * somebody asked for it. False: out of memory. */
+/* The solved values at their own places: also nearer to the edge than the field is known, at
+ * requested sites. False: out of memory. */
 static bool add_sites(struct group *group)
 {
     const struct site_field *field = group->field;
@@ -571,7 +571,7 @@ static bool fit_group(struct group *group)
     for (size_t f = 0; good && f < surface->face_count; f++)
         good = !is_in_group(group, f) || add_rows(group, f);
     good = good && add_sites(group);
-    /* from the mean of what is known about each */
+    /* from the mean of the values about each */
     for (size_t i = 0; i < group->unknowns; i++)
         group->values[i] = group->weights[i] > 0.0 ? group->values[i] / group->weights[i] : 0.0;
     good = good && edge_fit_solve(&group->fit, group->unknowns, MEAN_WEIGHT, group->values);
@@ -615,7 +615,7 @@ static bool spread_group(struct group *group, struct mesh_body *body)
 {
     const struct surface *surface = group->rule->surface;
     size_t members = 0;
-    /* what is known of its nodes */
+    /* values known at its nodes */
     for (size_t node = 0; node < group->rule->mesh->node_count; node++)
         group->index[node] = NODE_ELSEWHERE;
     group->unknowns = group->fit.count = 0;
@@ -626,7 +626,7 @@ static bool spread_group(struct group *group, struct mesh_body *body)
         }
     if (members == 0)
         return true;
-    /* what is fitted; all of it to the faces */
+    /* fitted nodes; then all values to the faces */
     bool good = fit_unknowns(group);
     for (size_t f = 0; good && f < surface->face_count; f++)
         if (is_in_group(group, f))
@@ -655,7 +655,7 @@ enum percuss_status site_field_spread(const struct site_field *field,
 
 /* ---- faces that cannot be trusted ---- */
 
-/* What a face may be off, times E and the distance from the edge, or the mesh's size where that is
+/* Allowed error of a face, times E and the distance from the edge, or the mesh's size where that is
  * less: as much as the error of answers holds near an edge (NEAR_EDGE in solve/model_deviation.c).
  */
 static const double MOST_OFF = 0.5;
@@ -664,7 +664,7 @@ static const double MOST_OFF = 0.5;
  * less than no compliance. */
 static const double HERTZ_MEAN = 0.6;
 
-/* What a face of so many nodes says. */
+/* Interpolated flexibility of a face with so many nodes. */
 static double interpolated(size_t count, const struct mesh_body_face *face, double u, double v)
 {
     double shape[FACE_MOST_NODES], sum = 0.0;
@@ -680,7 +680,7 @@ static void withdraw_face(struct mesh_body_face *face)
         face->flexibility[n] = NAN;
 }
 
-/* Faces against what was solved for on them. */
+/* Compares faces with the values solved for on them. */
 static void check_face_places(const struct site_field *field, struct mesh_body *body)
 {
     for (size_t i = 0; i < field->count; i++) {

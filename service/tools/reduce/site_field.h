@@ -33,17 +33,18 @@ bool site_field_make(struct site_field *field, const struct surface_rule *rule,
                      const struct flexibility_place *places, const double *values, double spacing);
 void site_field_free(struct site_field *field);
 
-/* The value at x, a point of the face, whose normal there is outward; NAN: no value is known
+/* The value at x, a point of the face with the normal `outward`; NAN: no value is known
  * nearby. */
 double site_field_at(const struct site_field *field, const struct surface_face *face,
                      const double x[3], const double outward[3]);
 
-/* How far the value at a place is from what the others say; NAN: nothing. */
+/* Interpolation from the other places less the value at a place; NAN: nothing. */
 double site_field_error(const struct site_field *field, size_t place);
 
 /* Fills the faces' flexibility and flexibility_slope; the surface is fitted. Along a sharp edge
- * flexibilities grow like 1/distance: nodes at one get what makes a face's shape functions come out
- * best within it, from a third of the mesh's edges on. PERCUSS_INTERNAL without memory. */
+ * flexibilities grow like 1/distance: nodes at one get the values that make a face's shape
+ * functions come out best within it, from a third of the mesh's edges on. PERCUSS_INTERNAL without
+ * memory. */
 enum percuss_status site_field_spread(const struct site_field *field,
                                       const struct surface_rule *rule, struct mesh_body *body,
                                       struct fault *fault);
@@ -51,11 +52,10 @@ enum percuss_status site_field_spread(const struct site_field *field,
 /* Half the trace of a curvature. */
 double site_field_curvature(const struct surface_point *point);
 
-/* Makes all flexibilities of a face NAN where what it says of a place on it is farther from what
- * was solved for there than answers allow for near an edge, where somewhere near an edge it would
- * leave a contact with less than no compliance, and on walls that are too thin
- * (flexibility_place_thin). The faces are filled (site_field_spread.h). Returns how many faces know
- * nothing. */
+/* Makes all flexibilities of a face NAN where its interpolation at a place differs from the solved
+ * value by more than the allowed error near an edge, where near an edge it would give a contact a
+ * negative compliance, and on walls that are too thin (flexibility_place_thin). The faces are
+ * filled (site_field_spread). Returns the number of faces without a flexibility. */
 size_t site_field_check(const struct site_field *field, const struct surface_rule *rule,
                         struct mesh_body *body);
 

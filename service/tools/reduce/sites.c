@@ -145,8 +145,8 @@ static void choose_place(struct candidates *candidates, const struct surface_rul
     }
 }
 
-/* Chosen places, one array to be freed; `*spacing` becomes what was reached far from edges. NULL:
- * no memory. */
+/* Chosen places, one array to be freed; `*spacing` becomes the spacing reached far from edges.
+ * NULL: no memory. */
 static struct flexibility_place *site_choice_make(const struct site_choice *choice,
                                                   const struct surface_rule *rule,
                                                   const struct flexibility_edges *edges,
@@ -198,14 +198,14 @@ static const double LEAST_REACH = 0.35;
 /* of the spacing: responses between nearer places rise like 1/distance between sites */
 static const double NEAR = 3.0;
 
-/* what is at work */
+/* state of the search */
 struct sites {
     const struct sites_task *task;
     struct flexibility *flexibility;
     struct flexibility_place *places;
     size_t count;
     double *values; /* [count], m/N at the cut; NAN: not known */
-    float *between; /* [count][count], row: who is moved; NULL: not wanted */
+    float *between; /* [count][count], row: the moved site; NULL: not wanted */
     double cut;
 };
 
@@ -308,7 +308,7 @@ static enum percuss_status solve_sites(struct sites *sites, struct sites_report 
             bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
             sites->values[first + c] = known ? value : NAN;
             report->imbalance = fmax(report->imbalance, answers[c].imbalance);
-            /* and what it does at the other sites */
+            /* and the response at the other sites */
             for (size_t i = 0; sites->between && i < sites->count; i++)
                 sites->between[i * sites->count + first + c] =
                     (float)(i == first + c
@@ -390,7 +390,7 @@ static enum percuss_status smoothen(struct sites *sites, struct site_field *fiel
     best.usual_error = INFINITY;
     enum percuss_status status = shape ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
 
-    /* first what is best, by values alone; then that, with all that depends on it */
+    /* first the best number of modes, by values alone; then the responses for that number */
     float *between = sites->between;
     double *first = malloc((count + 1) * sizeof *first);
     if (!first && status == PERCUSS_OK)
@@ -431,8 +431,8 @@ static void keep_between(struct sites *sites, size_t count, const size_t *kept)
             sites->between[a * count + b] = sites->between[kept[a] * sites->count + kept[b]];
 }
 
-/* Sites and what is between them, which the body takes over; not those whose forces are out of
- * balance, as responses to them would be too. */
+/* Sites and the responses between them, which the body takes over; not those whose forces are out
+ * of balance, as responses to them would be too. */
 static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body,
                                      struct fault *fault)
 {

@@ -21,11 +21,11 @@ struct sites_task {
     const double (*exact)[3];  /* m, the mesh's frame: a site at each, where the surface is plane;
                                 * within a sixth of a face from it where it is not */
     bool between;              /* wanted */
-    const struct watch *watch; /* told the part done; NULL: nobody asks */
+    const struct watch *watch; /* told the part done; NULL: no watch */
 };
 
-/* How it went, for people. Errors are of leaving a site out: what its own value is from those of
- * its neighbours; the interpolation between all sites is better. */
+/* How it went, for people. Errors are of leaving a site out: its own value less that interpolated
+ * from its neighbours; the interpolation between all sites is better. */
 struct sites_report {
     size_t count;         /* sites */
     size_t unknown;       /* of these, where nothing could be said: the body comes back within a
@@ -42,8 +42,8 @@ struct sites_report {
 };
 
 /* The body's modes are removed as far as that makes the flexibility smoother: they have peaks and
- * nodes of their own, which sites catch less the higher they are. What neighbours say of a site
- * that is left out decides how many, at most as many as the task's body says.
+ * nodes of their own, which sites catch less the higher they are. The error at an omitted site,
+ * interpolated from its neighbours, decides how many, at most as many as the task's body says.
  *
  * Fills of `body`: faces' flexibility and flexibility_slope, cut, removed, sites and between. Its
  * faces, those of the surface in their order, and its centre are there. PERCUSS_TIMEOUT: the watch

@@ -48,7 +48,7 @@ static void write_header(struct writer *writer, const struct solid_mesh *mesh,
         snprintf(name, sizeof name, "mode %zu: %.6g Hz", m + 1, modes->omega[m] / (2.0 * M_PI));
         announce(writer, "Float32", name, 3, 12 * nodes);
     }
-    /* what the mesh is */
+    /* the mesh */
     fprintf(writer->file, "</PointData>\n<CellData>\n");
     announce(writer, "Int32", "part", 1, 4 * cells);
     fprintf(writer->file, "</CellData>\n<Points>\n");

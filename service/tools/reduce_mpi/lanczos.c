@@ -14,7 +14,7 @@
 #include "reduce_mpi/spread_modes.h"
 #include "reduce_mpi/team.h"
 
-/* What MUMPS reports of all processes (INFOG): entries of L, negative pivots, and megabytes of the
+/* MUMPS's reports of all processes (INFOG): entries of L, negative pivots, and megabytes of the
  * process that takes most. */
 enum { ENTRIES = 3, NEGATIVES = 12, MOST_MEGABYTES = 16 };
 

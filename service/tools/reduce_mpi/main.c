@@ -25,7 +25,7 @@ static void dismiss(void)
 int main(int argc, char **argv)
 {
     int rank;
-    /* what PETSc is told comes by PETSC_OPTIONS: the command line is percuss-reduce's */
+    /* options of PETSc come by PETSC_OPTIONS: the command line is percuss-reduce's */
     if (SlepcInitializeNoArguments())
         return EXIT_FAILURE;
     atexit(dismiss);

@@ -11,7 +11,7 @@
 
 /* ---- a process' share of the elements ---- */
 
-/* What one message may hold, bytes: its length is an int. */
+/* Most bytes of one message: its length is an int. */
 enum { MESSAGE = 1 << 30 };
 
 /* Ends all processes. */
@@ -47,7 +47,7 @@ static void *receive_array(const void *array, size_t bytes, int rank)
     return copy;
 }
 
-/* What of a mesh makes its matrices. The first process' own mesh keeps its arrays. */
+/* The parts of a mesh that make its matrices. The first process' own mesh keeps its arrays. */
 static void receive_mesh(const struct solid_mesh *own, int rank, struct solid_mesh *mesh)
 {
     if (rank == 0)
@@ -181,7 +181,7 @@ static void share_free(struct share *share)
 
 /* ---- matrices and factor of all processes ---- */
 
-/* What MUMPS calls its controls, counted from one as in its manual. */
+/* Numbers of MUMPS's controls, counted from one as in its manual. */
 enum { ORDERING = 7, PLAIN_ROOT = 13, RELAXATION = 14, SCOTCH = 3 };
 
 /* Where entries go, in the order of a share's matrices, both triangles: held degrees of freedom

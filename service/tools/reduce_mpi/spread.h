@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Matrices of a mesh and a factor, spread over all processes by rows: PETSc with MUMPS. All calls
- * are made by all processes together; long vectors stand on the first one alone. What PETSc cannot
- * do ends them all with its own message. */
+ * are made by all processes together; long vectors stand on the first one alone. An error of
+ * PETSc ends them all with its own message. */
 #ifndef PERCUSS_REDUCE_MPI_SPREAD_H
 #define PERCUSS_REDUCE_MPI_SPREAD_H
 
@@ -37,7 +37,7 @@ struct spread {
     double *values;            /* of `shifted`, as its places were listed */
 };
 
-/* What MUMPS says of its last job: INFOG(1) and (2). */
+/* Status of MUMPS's last job: INFOG(1) and (2). */
 struct spread_outcome {
     int code, detail;
 };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* |A x - t x| over t in the norm of M, A = (K + shift M)^-1 M and t = 1/(w^2 + shift): see
- * reduce/lanczos.h, whose shapes are to be the same. */
+ * reduce/lanczos.h; the shapes are to be the same. */
 static const double RESIDUAL = 1e-10;
 
 /* How often copies of multiple frequencies that a single start has no part of are sought; vectors
@@ -53,7 +53,7 @@ static PetscErrorCode stop(EPS eps, PetscInt round, PetscInt most, PetscInt conv
     return 0;
 }
 
-/* (K + shift M) x = (w^2 + shift) M x about zero, whose inversion is that factor. */
+/* (K + shift M) x = (w^2 + shift) M x about zero; its inversion is that factor. */
 static void set_problem(struct search *search, EPS eps)
 {
     ST st;

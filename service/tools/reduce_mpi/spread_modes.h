@@ -15,7 +15,7 @@ struct spread_modes_task {
     uint64_t seed; /* of the first vector */
     /* on the first process alone */
     const double *rigid;       /* [rigid_count][n], M-orthonormal: kept out */
-    const struct watch *watch; /* told the part done; NULL: nobody asks */
+    const struct watch *watch; /* told the part done; NULL: no watch */
 };
 
 /* Fills `squares` [count], ascending, 1/s^2, and on the first process `shapes` [count][n],

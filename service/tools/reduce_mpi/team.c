@@ -81,7 +81,7 @@ void team_follow(void)
             finish(find(&members, order.key));
             break;
         case TEAM_END:
-            /* what was left of them */
+            /* the remaining ones */
             while (members)
                 finish(&members);
             return;
