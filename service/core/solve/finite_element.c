@@ -323,9 +323,9 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
  * elastic one is wrong by 1e-4 with so many. */
 enum { COARSEST = 6, FEWEST_STEPS = 48, PHASES = SWING_PHASES / 2 };
 
-/* What steps twice as many may change is this part of the tolerance: about as much is left. */
+/* Twice as many steps may change e by this part of the tolerance: about as much is left. */
 static const double STEPS_SHARE = 0.2;
-/* What steps leave differs from mesh to mesh by less than this part of it: 0.05 was found. */
+/* The error of steps differs from mesh to mesh by less than this part of it: 0.05 was found. */
 static const double STEPS_BY_MESH = 0.1;
 /* Cost of a mesh over that of one half as fine: four times the elements, and some. */
 static const double COST = 6.0;
@@ -357,7 +357,7 @@ static double restitution(const struct concurrent_search *search,
 static enum percuss_status solve_on(struct concurrent_search *search, unsigned mesh, double phase,
                                     unsigned doublings, struct impact_outcome *outcome)
 {
-    /* a region that is deep enough for what is expected */
+    /* a region that is deep enough for the expected indentation */
     const struct problem *problem = search->problem;
     struct concurrent_settings settings = {
         .horizon = search->horizon, .steps = FEWEST_STEPS << doublings, .pace = search->pace};
@@ -374,7 +374,7 @@ static enum percuss_status solve_on(struct concurrent_search *search, unsigned m
     enum percuss_status status = region_create(&input, &region, search->fault);
     if (status != PERCUSS_OK)
         return status;
-    /* the impact with it, and what that took */
+    /* the impact with it, and its effort */
     status = impact_create(outcome, search->scene, problem->arena)
                  ? impact_concurrent(search->scene, region, &settings, problem->arena, outcome,
                                      search->fault)
@@ -395,7 +395,7 @@ void concurrent_judge_steps(struct concurrent_steps *steps)
     steps->error = 0.5 * fabs(change) + STEPS_BY_MESH * fabs(steps->left);
 }
 
-/* Doubles the steps on the coarsest mesh until they matter little. What they leave is known from
+/* Doubles the steps on the coarsest mesh until they matter little. Their error is known from
  * then on, so that all other solutions make do with a quarter of the last. */
 static enum percuss_status search_steps(struct concurrent_search *search)
 {

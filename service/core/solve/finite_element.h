@@ -46,13 +46,13 @@ void concurrent_report(const struct concurrent_effort *effort, const struct prob
 
 enum { CONCURRENT_MESHES = 3, CONCURRENT_DOUBLINGS = 6 };
 
-/* What steps do, found on one coarse mesh: what they leave does not depend on the mesh, to a
+/* The effect of steps, found on one coarse mesh: their error does not depend on the mesh, to a
  * twentieth. */
 struct concurrent_steps {
     double restitution[CONCURRENT_DOUBLINGS]; /* with as many steps as the coarsest, twice, ... */
     unsigned count;                           /* of them solved */
     unsigned chosen;                          /* that of all other solutions */
-    double left;                              /* what e would still change from there */
+    double left;                              /* change of e still to come from there */
     double error;                             /* of that */
 };
 
@@ -66,7 +66,7 @@ struct concurrent_search {
     struct concurrent_steps steps;
     struct swing swing[CONCURRENT_MESHES]; /* coarse to fine; restitution with the chosen steps */
     unsigned meshes;
-    double restitution, error; /* the limit of steps and meshes, and what it may be wrong by */
+    double restitution, error; /* the limit of steps and meshes, and its error */
     /* The solution nearest the limit, on the finest mesh; its error is how far it is from it, and
      * the limit's own. */
     struct impact_outcome answer;
@@ -75,14 +75,14 @@ struct concurrent_search {
     struct impact_outcome latest[SWING_PHASES / 2]; /* of the finest mesh, by phase */
 };
 
-/* What is left of e beyond the last of the solutions with doubled steps: `left` and `error`. */
+/* The rest of e beyond the last of the solutions with doubled steps: `left` and `error`. */
 void concurrent_judge_steps(struct concurrent_steps *steps);
 
 /* Limit and error from the means of two meshes or three, each twice as fine as the one before. */
 void concurrent_judge_meshes(struct concurrent_search *search);
 
 /* Solves with more steps and on finer meshes, of three phases each, until a solution is expected to
- * lie within `allowed` of the limit, and finds it. OK, or what the region or the pace says. */
+ * lie within `allowed` of the limit, and finds it. OK, or the status of the region or the pace. */
 enum percuss_status concurrent_search(struct concurrent_search *search, double allowed);
 
 /* Elements along the core of a mesh's region. */

@@ -18,8 +18,8 @@
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
 static const double LARGEST_CONTACT = 0.3;
-/* Speed along the surface against that of approach: some 3 degrees. What sliding less than that can
- * take is 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
+/* Speed along the surface against that of approach: some 3 degrees. Slower sliding can
+ * take 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
  * sliding / (3.5 (1 + e) approach) of it. */
 static const double SLIDING = 0.05;
 /* Share of the energy that the vibration of a sphere takes, times the wave speed over that of the
@@ -31,12 +31,12 @@ static const double FAST = 0.01;
 static const double OTHER_BODIES = 0.01;
 /* Error of a contact law, of the restitution, that is worth a warning. */
 static const double WRONG_LAW = 0.05;
-/* Of compact bodies that meet: what tables are deep enough for unless they are told. */
+/* Of compact bodies that meet: the speed that tables are deep enough for by default. */
 static const double TABLE_SPEED = 1.0;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
-/* Of a fitted normal, rad: 2 degrees, as for what is declared. */
+/* Of a fitted normal, rad: 2 degrees, as for a declared one. */
 static const double DOUBT = 2.0 * M_PI / 180.0;
 
 static double wave_speed(const struct body *body)
@@ -76,7 +76,7 @@ static void find_yield(const struct problem *problem, size_t c, double pressure,
     }
 }
 
-/* Contacts and dents as large as what they are on. */
+/* Contacts and dents as large as the surface that they are on. */
 static void find_size(const struct problem *problem, const struct impact_outcome *outcome, size_t c,
                       double half_axis, struct warnings *warnings)
 {
@@ -99,8 +99,8 @@ static void find_size(const struct problem *problem, const struct impact_outcome
 }
 
 /* On a mesh: a contact wider than half its distance from an edge, or nearer to it than the
- * element there is long (service/tools/reduce), and a site whose surface is declared otherwise than it is
- * or is not well known. */
+ * element there is long (service/tools/reduce), and a site with a surface that is declared
+ * otherwise than it is or is not well known. */
 static void find_mesh_place(const struct problem *problem, size_t c, unsigned which,
                             double half_axis, struct warnings *warnings)
 {
@@ -118,7 +118,7 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
             "contacts[%zu]: %.3g m from an edge of %s, whose elements there are %.3g m long: "
             "its flexibility there is uncertain",
             c, spot->edge, body->id, spot->element);
-    /* what the site itself says */
+    /* the site's own remark */
     if (spot->remark)
         warnings_add(warnings, WARNING_EDGE + which, "contacts[%zu]: on %s: %s", c, body->id,
                      spot->remark);
@@ -191,7 +191,7 @@ static bool find_table(const struct problem *problem, const struct impact_outcom
     bool good = choice->tabulated && !(choice->outside > 0.0 || choice->both);
     if (!may || good || !contact_model_yielded(problem, outcome, c))
         return false;
-    /* what makes one */
+    /* the command that makes one */
     char how[WARNING_SIZE - 400] = "";
     bool round = body_has_sphere(a) || body_has_sphere(b);
     if (round && problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied)
@@ -274,7 +274,7 @@ static double inverse_mass_along(const struct problem *problem, size_t c, const 
 }
 
 /* Coulomb's friction transmits at most its coefficient times the normal impulse, and no more than
- * stops the sliding. What an articulated body's mass is along the surface is not known. */
+ * stops the sliding. An articulated body's mass along the surface is not known. */
 static void find_sliding(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
@@ -381,7 +381,7 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     /* a contact that was cut off is not listed */
     bool touches =
         outcome->end_reason == PERCUSS_END_LIMIT || outcome->end_reason == PERCUSS_END_IN_CONTACT;
-    /* what closes, and whether it touched */
+    /* the contacts that close, and whether they touched */
     double approach = problem_approach(problem);
     warnings->count = 0;
     warnings->kinds = 0;

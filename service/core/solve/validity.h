@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Where the models end: warnings, and what they leave out by nature. */
+/* Where the models end: warnings, and effects that they lack by nature. */
 #ifndef PERCUSS_SOLVE_VALIDITY_H
 #define PERCUSS_SOLVE_VALIDITY_H
 
@@ -19,7 +19,7 @@ double validity_wave_loss(const struct problem *problem);
 void validity_find(const struct problem *problem, const struct impact_outcome *outcome,
                    struct warnings *warnings);
 
-/* Of that, what needs no solution: adds the speeds of approach. */
+/* The part that needs no solution: adds the speeds of approach. */
 void validity_find_speed(const struct problem *problem, struct warnings *warnings);
 
 /* Adds the waves left out, where they matter: of compact bodies, and of half-spaces, which change

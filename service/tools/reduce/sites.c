@@ -431,7 +431,7 @@ static void keep_between(struct sites *sites, size_t count, const size_t *kept)
             sites->between[a * count + b] = sites->between[kept[a] * sites->count + kept[b]];
 }
 
-/* Sites and the responses between them, which the body takes over; not those whose forces are out
+/* Sites and the responses between them, which the body takes over; not those with forces out
  * of balance, as responses to them would be too. */
 static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body,
                                      struct fault *fault)
