@@ -273,12 +273,10 @@ static double family_plane_compliance(const struct material *material)
     return (1.0 - material->poisson * material->poisson) / material->young;
 }
 
-static const double HARD_ENOUGH = 2.0;
-
 bool contact_family_both_yield(const struct material *a, const struct material *b)
 {
     double ratio = closed_form_yield_ratio(a, b);
-    return fmax(ratio, 1.0 / ratio) < HARD_ENOUGH;
+    return fmax(ratio, 1.0 / ratio) < CONTACT_FAMILY_HARD_ENOUGH;
 }
 
 struct contact_family_place contact_family_place(const struct material *a, const struct material *b)
@@ -294,7 +292,8 @@ struct contact_family_place contact_family_place(const struct material *a, const
      * falls with the fourth power, from contact regions of two bodies that are equal but for their
      * yields (5e-3 of the force and 3e-3 of the elastic recovery, at 1.2 and 1.5 times it). */
     double ratio = closed_form_yield_ratio(soft, other);
-    double both = ratio < HARD_ENOUGH ? pow(HARD_ENOUGH - ratio, 4.0) : 0.0;
+    double both =
+        ratio < CONTACT_FAMILY_HARD_ENOUGH ? pow(CONTACT_FAMILY_HARD_ENOUGH - ratio, 4.0) : 0.0;
     return (struct contact_family_place){soft->tangent / soft->young, soft->poisson,
                                          share + (1.0 - share) * both};
 }

@@ -59,6 +59,10 @@ void contact_family_free(struct contact_family *family); /* NULL is allowed */
 struct contact_family_place contact_family_place(const struct material *a,
                                                  const struct material *b);
 
+/* A metal that would yield later than so many times the pressure at which the other body flows
+ * stays elastic. */
+static const double CONTACT_FAMILY_HARD_ENOUGH = 2.0;
+
 /* Whether both bodies flow: the harder one yields at less than twice the pressure of the other. */
 bool contact_family_both_yield(const struct material *a, const struct material *b);
 

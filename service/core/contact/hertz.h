@@ -16,6 +16,14 @@
 #define HERTZ_FIRST_YIELD 1.6
 /* The work of k d^(3/2), of force times indentation. */
 #define HERTZ_WORK 0.4
+/* An elastic collision by k d^(3/2): its duration over indentation / speed of approach (Johnson,
+ * section 11.4); the mean stiffness over peak force / indentation, weighted by the force; and for
+ * effects of slow forces, with K = dF/dd and d'^2 = v^2 (1 - (d/d_m)^(5/2)), the integral of K' F'
+ * over k^2 v d_m, and that of F'^2 times the speed over the one of K' F' times the indentation. */
+#define HERTZ_DURATION       2.94
+#define HERTZ_MEAN_STIFFNESS 1.3
+#define HERTZ_SLOW_INERTIA        1.78
+#define HERTZ_SLOW_VISCOSITY      0.9
 
 struct hertz_contact {
     double effective_modulus; /* E*, Pa */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/hertz.h"
 #include "impact/contact_step.h"
 #include "impact/impact_scale.h"
 #include "impact/kernel.h"
@@ -13,9 +14,6 @@
 
 /* Of all contacts, and intervals of a flight: some hundred times what an impact takes. */
 enum { MAX_STEPS = 100000 };
-
-/* A contact lasts this many times its scale (Hertz, rigid bodies). */
-static const double HERTZ_DURATION = 2.94;
 
 /* What F = k d^(3/2) has for its stiffness over F/d: the region's, for the books. */
 static const double HERTZ_POWER = 1.5;

@@ -139,6 +139,9 @@ double beam_mode_on(const struct beam_plane *plane, const struct beam_mode *mode
 struct beam_load beam_side_load(const struct body *body, int plane, const double point[3],
                                 const double direction[3]);
 
+/* The fit of a side's compliance ends at this share of half the breadth from the axis. */
+static const double BEAM_SIDE_FARTHEST = 0.85;
+
 /* Compliance of a point of the side beyond its half-space's and the bar's own there (that of
  * beam_side_load and of twist), m/N; usually negative. */
 double beam_side_compliance(const struct body *body, const double point[3],

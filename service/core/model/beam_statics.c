@@ -186,7 +186,6 @@ static const double ASIDE[3][3] = {
     {0.824, 1.301, 0.0}, {-2.236, -1.403, 0.0}, {0.294, -0.157, 0.0}};
 static const double EDGES[2][3] = {{0.324, 0.191, -0.079}, {0.098, -0.146, 0.721}};
 static const double BREADTH[2] = {0.4, 2.5};
-static const double FARTHEST = 0.85;
 /* Sections that are broader than this many depths bend across their breadth more than along it: the
  * fit does not describe plates. The terms fall to zero from the first ratio to the second. */
 static const double STRIP[2] = {3.0, 5.0};
@@ -260,7 +259,7 @@ double beam_side_compliance(const struct body *body, const double point[3], cons
     double depth = on_top ? body->height : body->width;
     double breadth = on_top ? body->width : body->height;
     double s = fmax(BREADTH[0], fmin(breadth / depth, BREADTH[1]));
-    double eta = fmin(2.0 * fabs(on_top ? point[1] : point[2]) / breadth, FARTHEST);
+    double eta = fmin(2.0 * fabs(on_top ? point[1] : point[2]) / breadth, BEAM_SIDE_FARTHEST);
     double square = eta * eta;
     double local = at_breadth(4, CENTRE, s, nu) + at_breadth(3, ASIDE, s, nu) * square +
                    at_breadth(2, EDGES, s, nu) * 2.0 * square / (1.0 - square);

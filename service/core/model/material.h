@@ -16,6 +16,16 @@ struct material {
     double tangent; /* Pa, slope of the stress-strain curve beyond yield; 0: ideally plastic */
 };
 
+/* Handbook values of materials. Yield strain that most metals have or exceed, and that hardly any
+ * exceeds (hardened steels yield at 2 GPa; Ashby, Materials Selection in Mechanical Design, chapter
+ * 4). No metal, glass or ceramic of bodies is softer than SOFT (lead: 16 GPa): softer ones are
+ * plastics, rubber, woods, foams, with a loss factor of 0.01 to 2 (Gerdeen, Lord, Rorrer,
+ * Engineering Design with Polymers and Composites, chapter 12). */
+#define MATERIAL_USUAL_YIELD_STRAIN 0.002
+#define MATERIAL_MOST_YIELD_STRAIN  0.01
+#define MATERIAL_SOFT               10e9
+#define MATERIAL_SOFT_LOSS          0.01
+
 /* Shear modulus E / (2 (1 + nu)), Pa. */
 static inline double material_shear_modulus(const struct material *material)
 {

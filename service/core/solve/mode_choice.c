@@ -5,14 +5,12 @@
 
 #include <math.h>
 
+#include "contact/hertz.h"
 #include "impact/impact_scale.h"
 #include "model/damping.h"
 
 /* ---- How many ---- */
 
-/* Integrals over an elastic collision, see make_demand: of K' F', and of F'^2 against it. */
-static const double HERTZ_INERTIA = 1.78;
-static const double HERTZ_VISCOSITY = 0.9;
 /* Modes that are asked for at first, and shapes at a time. */
 enum { FIRST_MODES = 32, SHAPES = 8 };
 /* No stand-in is faster than sqrt(3) times the first mode that it stands for
@@ -37,8 +35,8 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
     double stiffness = scale.force / scale.indentation;
     double w = scene->w[contact * scene->contacts + contact];
     return (struct demand){.load = load,
-                           .weight = HERTZ_INERTIA * stiffness * stiffness * w,
-                           .delay = HERTZ_VISCOSITY * scale.duration};
+                           .weight = HERTZ_SLOW_INERTIA * stiffness * stiffness * w,
+                           .delay = HERTZ_SLOW_VISCOSITY * scale.duration};
 }
 
 /* The contacts that load the family, as if each closed like the fastest of all: a body at rest on

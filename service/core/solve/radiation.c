@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "contact/hertz.h"
 #include "contact/plastic.h"
 #include "impact/impact_scale.h"
 #include "model/half_space.h"
@@ -20,8 +21,6 @@ static const double FAST = 128.0;
 /* Relative error of the loss times (frequency times duration)^2: spheres on a wall, integrated with
  * oscillators of 14 to 7000, differ from the limit by 0.5 to 3. */
 static const double ERROR = 3.0;
-/* A contact lasts this many times its scale (Hertz, rigid bodies). */
-static const double HERTZ_DURATION = 2.94;
 /* Pivot of the shares up to which a contact has no waves of its own: FAR squared. */
 static const double OWN = 1e-6;
 /* Contacts that share less of their waves are far from each other. */

@@ -122,7 +122,7 @@ static void begins_below_the_tolerance(void **state)
     near_relative(attempt_first_accuracy(1e-8, false, false), 1e-11, 1e-12);
     near_relative(attempt_first_accuracy(0.5, true, false), 1e-5, 1e-12);
     near_relative(attempt_first_accuracy(0.5, true, true), 1e-6, 1e-12);
-    near_relative(attempt_first_accuracy(1e-17, false, false), ATTEMPT_FINEST, 0.0);
+    near_relative(attempt_first_accuracy(1e-17, false, false), FINEST_STEPS, 0.0);
 }
 
 /* What a slow force meets: the residual flexibility and that of the modes. */

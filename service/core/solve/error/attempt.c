@@ -10,11 +10,6 @@
 #include "impact/impact_scale.h"
 #include "solve/error/calibration.h"
 
-/* Most of a second by the modal method, with some 20 ns of that a step; CVODE's
- * right-hand sides are many more and cheaper. */
-static const double MAX_WORK = 3e7;
-static const double MAX_WORK_CVODE = 4e9;
-
 /* Sub-impacts of a contact from which on e is chaotic often enough (a fifth of the random heavy
  * balls on light beams from 30 on) that two solutions may agree within the tolerance and both be
  * wrong. */
@@ -26,7 +21,7 @@ enum { MOST_LOGGED = 2048 };
 
 double attempt_work_allowed(enum percuss_method method)
 {
-    return method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
+    return method == PERCUSS_METHOD_CVODE ? MOST_WORK_CVODE : MOST_WORK;
 }
 
 double attempt_horizon(const struct problem *problem, const struct scene *scene)
@@ -63,10 +58,6 @@ static enum percuss_status run_once(struct attempt_context *context, struct atte
     context->work -= impact_work(scene, &attempt->outcome);
     return status;
 }
-
-/* Share of the approach's energy that the work of acceleration may be in a single impact: the
- * steps' loss is a share of both. */
-static const double PRESSED = 0.1;
 
 /* Whether acceleration moves the only contact as much as its approach does. */
 static bool is_pressed(const struct scene *scene)
@@ -167,6 +158,11 @@ double attempt_steps_leave(double accuracy)
     return STEPS_LEFT * pow(accuracy, STEPS_LEFT_POWER);
 }
 
+bool attempt_can_shorten(double accuracy)
+{
+    return accuracy > 1.01 * FINEST_STEPS;
+}
+
 bool attempt_is_spent(const struct attempt *attempt)
 {
     return attempt->outcome.end_reason == PERCUSS_END_LIMIT;
@@ -205,7 +201,7 @@ double attempt_first_accuracy(double tolerance, bool sequence, bool group)
     bool fine = tolerance <= TOLERANCE_AUDITED || group || (sequence && followed);
     double share = fine ? FIRST_STEPS_FINE : sequence ? FIRST_STEPS_SEQUENCE : FIRST_STEPS_SINGLE;
     double most = group ? MOST_STEPS_GROUP : sequence ? MOST_STEPS_SEQUENCE : INFINITY;
-    return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
+    return fmax(fmin(share * tolerance, most), FINEST_STEPS);
 }
 
 /* Effect of omitting mode k on the impulse of a contact, as a part of that of compression: its

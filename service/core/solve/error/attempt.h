@@ -30,9 +30,6 @@ struct attempt {
     enum impact_care care;       /* of the time steps; a sequence's where one was found */
 };
 
-/* Finest accuracy of the time steps that is tried. */
-static const double ATTEMPT_FINEST = 1e-17;
-
 /* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
  * error. */
 double attempt_first_accuracy(double tolerance, bool sequence, bool group);
@@ -87,16 +84,7 @@ static inline void attempt_by_other_means(struct attempt *attempt)
 }
 
 /* Whether steps can still be shortened: rounding may have left them a little above the finest. */
-static inline bool attempt_can_shorten(double accuracy)
-{
-    return accuracy > 1.01 * ATTEMPT_FINEST;
-}
-
-/* Effect on the impulse of the modes that a truncated scene may lack: of solutions that perturb a
- * sequence, which amplifies it five- to twentyfold as a rule; and of first order along a sequence,
- * which is compared with nothing. */
-static const double TRUNCATED_SEQUENCE = 1e-4;
-static const double TRUNCATED_FIRST_ORDER = 1e-3;
+bool attempt_can_shorten(double accuracy);
 
 /* A solved scene without its highest modes, for solutions that need to be much less accurate: the
  * inertia and viscosity of those modes would change no contact's impulse by more than `allowed` of

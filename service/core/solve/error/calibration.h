@@ -9,9 +9,10 @@
 
 /* ---- Modes and time steps: build/tests/estimates --class CLASS --count N ---- */
 
-/* Shares of the tolerance: of modes, of steps, and of both where one comparison covers both. */
+/* Shares of the tolerance: of modes, with the rest for steps; and of both where one comparison
+ * covers both. */
 static const double SHARE_MODES = 0.7;
-static const double SHARE_STEPS = 0.3;
+#define SHARE_STEPS (1.0 - SHARE_MODES)
 static const double SHARE_BOTH = 0.9;
 
 /* True error over the largest difference between solutions of a sequence: below 2 for 19 of 20
@@ -36,10 +37,8 @@ static const double FIRST_MODES_SEQUENCE = 0.02;
 static const double MOST_MODES_SINGLE = 4e-4;
 static const double MOST_MODES_SEQUENCE = 1e-4;
 static const double MOST_MODES_GROUP = 2e-5;
-/* Share of the tolerance at which the next attempt aims, and by how much it may change the allowed
- * effect at most. */
+/* Share of the tolerance at which the next attempt aims. */
 static const double AIM = 0.5;
-static const double LARGEST_RAISE = 0.01;
 /* Times the effect of the omitted modes that the solution with fewer modes has. */
 static const double FEWER_MODES = 10.0;
 
@@ -53,7 +52,6 @@ static const double MOST_STEPS_SEQUENCE = 1e-5;
 static const double MOST_STEPS_GROUP = 1e-6;
 /* Times the accuracy that longer steps have, for comparison. */
 static const double LONGER_STEPS = 100.0;
-static const double SLIGHTLY_LONGER_STEPS = 10.0;
 /* Steps of an accuracy leave LEFT accuracy^LEFT_POWER of one impact's e. */
 static const double STEPS_LEFT = 0.1;
 static const double STEPS_LEFT_POWER = 0.8;
@@ -64,23 +62,24 @@ static const double CLOSURE = 10.0;
 static const double DEFECT_FACTOR = 4.0;
 /* Tolerances below which longer steps are tried for comparison of single impacts, too. */
 static const double TOLERANCE_COMPARED = 1e-5;
-/* Tolerances from which on first order along the answer says the error of a sequence: with the
- * usual steps, and with fine ones, which cost less than another solution. */
-static const double TOLERANCE_FOLLOWED = 6e-4;
-static const double TOLERANCE_FOLLOWED_FINE = 1e-4;
 /* Steps leave less than this of e of 98 of 100 random sequences where the omitted modes do not
- * tell. */
-static const double STRAY_COARSE = 6e-5;
-static const double STRAY_FINE = 4e-5;
+ * tell: from 10 times it on first order along the answer says the error of a sequence with the
+ * usual steps; down to the least tolerance that it fits into with fine ones, which cost less than
+ * another solution. */
+static const double STRAY = 6e-5;
+#define TOLERANCE_FOLLOWED      (10.0 * STRAY)
+#define TOLERANCE_FOLLOWED_FINE (STRAY / SHARE_BOTH)
 
 /* A sequence amplifies strongly if e changes by so many times the effect of the omitted modes (10
- * and less are the rule); effects below NEGLIGIBLE tolerances count as that. */
+ * and less are the rule). */
 static const double STRONG = 30.0;
+/* A share that counts as nothing: of the tolerance, an effect of omitted modes; of a group's
+ * largest impulse of compression, that of a contact, which others strike then; of a half-space's
+ * waves, those that a body leaves (a fast impact loses a per cent of e to all of them). */
 static const double NEGLIGIBLE = 0.01;
 /* A contact is struck by others if its restitution is larger (they give it a fifth of its impulse
- * and more), or if its impulse of compression is a smaller share of the group's largest. */
+ * and more). */
 static const double STRUCK = 1.5;
-static const double SLIGHT = 0.01;
 /* Least restitution that a loss of energy is counted against. */
 static const double LEAST_REBOUND = 0.1;
 
@@ -92,9 +91,6 @@ static const double STRAIN_MODES = 0.1;
 static const double STRAIN_MODELS = 0.05;
 static const double STRAIN_MODELS_GROUP = 0.2;
 static const double STRAIN_MODELS_CURVED = 0.5;
-/* Expected change beyond which it is not followed: half of those sequences are too sensitive. */
-static const double STRAIN_EXPECTED = 0.7;
-
 /* ---- Models, over modes and steps: build/tests/models, build/tests/sides, independent/campaign
  * ---- */
 
@@ -130,7 +126,6 @@ static const double UNKNOWN_COMPACT = 0.3;
  * square of that. */
 static const double SIDE_ASIDE = 0.08;
 static const double SIDE_EDGE = 0.2;
-static const double SIDE_KNOWN = 0.85;
 static const double SIDE_END = 0.05;
 /* No contact counts as nearer to an edge than this, half thicknesses. */
 static const double NEAREST_EDGE = 0.05;
@@ -148,10 +143,6 @@ static const double THEORY_WITHOUT_SHEAR = 5.0;
  * its theory, by the square of (half section / distance). Of 120 impacts on clamped bars of 6 to 24
  * depths and the same as blocks 103 were covered without this. */
 static const double NEAR_CLAMP = 0.16;
-/* Share of a half-space's waves below which an impact leaves none: a fast one loses a per cent of e
- * to them. */
-static const double NO_WAVES = 0.01;
-
 /* ---- Contact laws that yield: build/tests/plastic, physics/test_family ---- */
 
 /* Error of the family between its places where nothing else limits it, and adds where both
@@ -165,9 +156,29 @@ static const double LAW_DEEP = 0.006;
 static const double LAW_OUTSIDE = 0.03;
 static const double LAW_BEYOND = 0.02;
 
+/* Share of a sub-impact's rebound from which on the next ones differ altogether, where a metal of
+ * unstated yield flows. */
+static const double OTHER_SUB_IMPACTS = 0.05;
+
 /* ---- States of bodies that vibrate already: build/tests/estimates --class chain ---- */
 
 /* Modes from this share of those that took part on stand for the ones behind them. */
 static const double STATE_LAST = 0.75;
+
+/* ---- Effort: build/tests/estimates (its columns of ms) ---- */
+
+/* Work (impact.h) of all solutions of a request: most of a second by the modal method, with some
+ * 20 ns a unit; CVODE's right-hand sides are many more and cheaper. */
+static const double MOST_WORK = 3e7;
+static const double MOST_WORK_CVODE = 4e9;
+/* Times the answer's own work that a perturbed solution may take. */
+static const double PERTURBED_WORK = 10.0;
+/* Finest accuracy of time steps that is tried. */
+static const double FINEST_STEPS = 1e-17;
+/* Share of the approach's energy that the work of acceleration may be in a single impact. */
+static const double PRESSED = 0.1;
+/* Effect on the impulse of the modes that a truncated scene may lack, of first order along a
+ * sequence, which is compared with nothing; perturbed solutions have MOST_MODES_SEQUENCE. */
+static const double TRUNCATED_FIRST_ORDER = 1e-3;
 
 #endif

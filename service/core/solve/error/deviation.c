@@ -15,11 +15,6 @@
 #include "solve/error/law.h"
 #include "solve/outcome.h"
 
-/* Mean stiffness of a Hertz contact over peak force / indentation, weighted by its force, and its
- * duration over indentation / speed. */
-static const double HERTZ_STIFFNESS = 1.3;
-static const double HERTZ_DURATION = 2.94;
-
 static double wave_speed(const struct body *body)
 {
     return sqrt(body->material.young / body->material.density);
@@ -71,7 +66,7 @@ static double unknown_of_side(const struct body *body, const struct site *site)
     double half = 0.5 * (across == 1 ? body->width : body->height);
     double aside = fabs(site->point[across]) / half;
     double edge = fmax((half - fabs(site->point[across])) / size, NEAREST_EDGE);
-    double known = (1.0 - SIDE_KNOWN) * half / size;
+    double known = (1.0 - BEAM_SIDE_FARTHEST) * half / size;
     return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * fmax(1.0 / edge - 1.0 / known, 0.0);
 }
 
@@ -203,7 +198,8 @@ static double yield_of(const struct problem *problem, size_t contact,
 
 double model_impact_stiffness(const struct model_impact *impact)
 {
-    return impact->indentation > 0.0 ? HERTZ_STIFFNESS * impact->force / impact->indentation : 0.0;
+    return impact->indentation > 0.0 ? HERTZ_MEAN_STIFFNESS * impact->force / impact->indentation
+                                     : 0.0;
 }
 
 double deviation_stiffness(const struct deviation *deviation, const struct model_impact *impact)
@@ -401,7 +397,7 @@ double deviation_waves(const struct problem *problem, const struct assembly *ass
             continue;
         double weight = is_bar(body) ? of_bar(body, &side->site, impact->duration)
                                      : of_solid(assembly, side->body, contact, impact->duration);
-        if (weight < NO_WAVES)
+        if (weight < NEGLIGIBLE)
             continue;
         sum +=
             weight * half_space_waves_of(&body->material).lag * outcome->tracks[contact].viscosity;

@@ -232,16 +232,6 @@ double law_error_worst(const struct problem *problem, const struct impact_outcom
 
 /* ---- Metals of unstated yield ---- */
 
-/* Yield strain that most metals have or exceed: the assumption of the model's error. */
-static const double ORDINARY = 0.002;
-/* And that hardly any exceeds: hardened steels yield at 2 GPa. */
-static const double STRONGEST = 0.01;
-/* A metal that would yield later than so many times the pressure at which the other body flows
- * stays elastic (contact_family_both_yield). */
-static const double HARD_ENOUGH = 2.0;
-/* Share of a sub-impact's rebound from which on the next ones are others altogether. */
-static const double OTHERS = 0.05;
-
 static bool is_unstated(const struct problem *problem, size_t contact, int which)
 {
     if (!problem_body(problem, contact, which)->yield_unstated)
@@ -255,7 +245,7 @@ static double bears(const struct problem *problem, size_t contact, int which)
 {
     struct material material = *problem_material(problem, contact, which);
     if (is_unstated(problem, contact, which))
-        material.yield = ORDINARY * material.young;
+        material.yield = MATERIAL_USUAL_YIELD_STRAIN * material.young;
     return closed_form_pressure(&material);
 }
 
@@ -298,7 +288,7 @@ double unstated_holds_above(const struct problem *problem, size_t contact, doubl
     double pressure = hertz_peak_pressure(&problem->hertz[contact], force);
     for (int which = 0; which < 2; which++)
         if (!is_unstated(problem, contact, which))
-            pressure = fmin(pressure, HARD_ENOUGH * bears(problem, contact, which));
+            pressure = fmin(pressure, CONTACT_FAMILY_HARD_ENOUGH * bears(problem, contact, which));
     return pressure / HERTZ_FIRST_YIELD;
 }
 
@@ -326,7 +316,8 @@ double unstated_change(const struct problem *problem, size_t contact,
     if (flowed)
         back /= given_back(problem, contact, now, before);
     double share = fmax(1.0 - back, 0.0);
-    return fmin(share * impact->rebound + fmin(share / OTHERS, 1.0) * impact->later, impact->range);
+    return fmin(share * impact->rebound + fmin(share / OTHER_SUB_IMPACTS, 1.0) * impact->later,
+                impact->range);
 }
 
 double unstated_worst(const struct problem *problem, const struct impact_outcome *outcome)
@@ -402,9 +393,9 @@ void unstated_find(const struct problem *problem, size_t contact,
     text_add(&text, ": the answer holds for metals that yield above ");
     add_stress(&text, above);
     text_add(&text, " MPa");
-    if (softest && above > STRONGEST * softest->young) {
+    if (softest && above > MATERIAL_MOST_YIELD_STRAIN * softest->young) {
         text_add(&text, ", which hardly any does (young/100: ");
-        add_stress(&text, STRONGEST * softest->young);
+        add_stress(&text, MATERIAL_MOST_YIELD_STRAIN * softest->young);
         text_add(&text, " MPa)");
     }
     text_add(&text, "; at young/500 the restitution is off by up to ");
@@ -412,13 +403,6 @@ void unstated_find(const struct problem *problem, size_t contact,
 }
 
 /* ---- Losses of the materials ---- */
-
-/* No metal, glass or ceramic that bodies are made of is softer (lead: 16 GPa): softer ones are
- * plastics, rubber, woods, foams. */
-static const double SOFT = 10e9;
-/* The least loss factor of those: 0.01 to 2 (Gerdeen, Lord, Rorrer, Engineering Design with
- * Polymers and Composites, chapter 12). */
-static const double LEAST = 0.01;
 
 /* Share of one of its bodies in the indentation of a contact. */
 static double indentation_share(const struct problem *problem, size_t contact, int which)
@@ -478,10 +462,10 @@ static void find_unstated_loss(const struct problem *problem, size_t contact, do
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, contact, (int)which);
         double young = problem_material(problem, contact, (int)which)->young;
-        if (!isnan(body->loss_factor) || !(young < SOFT))
+        if (!isnan(body->loss_factor) || !(young < MATERIAL_SOFT))
             continue;
-        double least =
-            lost_rebound(rebound, indentation_share(problem, contact, (int)which) * LEAST);
+        double least = lost_rebound(rebound, indentation_share(problem, contact, (int)which) *
+                                                 MATERIAL_SOFT_LOSS);
         if (least > problem->tolerance)
             warnings_add(warnings, WARNING_LOSS + which,
                          "contacts[%zu]: materials as soft as that of %s (young %.3g Pa) lose "

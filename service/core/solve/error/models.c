@@ -26,9 +26,6 @@ struct model_margin {
 
 /* ---- Perturbed solutions: contacts softer and stiffer, and yielding earlier and later ---- */
 
-/* Work that a perturbed solution may take, in those of the answer. */
-static const double EFFORT = 3.0;
-
 /* The deviations of a perturbed solution: all contacts softer or stiffer, every other one so, or
  * all yielding later or earlier. */
 struct perturbation {
@@ -98,7 +95,7 @@ static enum percuss_status solve_perturbed(struct perturbed *perturbed, const st
 {
     const struct solution *solution = perturbed->margin->solution;
     double left = perturbed->context.work;
-    double allowed = EFFORT * impact_work(solution->scene, &solution->outcome);
+    double allowed = PERTURBED_WORK * impact_work(solution->scene, &solution->outcome);
     double before = distance->restitution;
     distance->restitution = INFINITY;
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
@@ -167,7 +164,7 @@ static enum percuss_status find_perturbed(const struct model_margin *margin, str
     struct distance spring = {0.0, arena_take(problem->arena, n, sizeof *spring.impulse)};
     struct distance flow = {0.0, arena_take(problem->arena, n, sizeof *flow.impulse)};
     if (!spring.impulse || !flow.impulse ||
-        !attempt_truncate(problem, solution->scene, &solution->outcome, TRUNCATED_SEQUENCE,
+        !attempt_truncate(problem, solution->scene, &solution->outcome, MOST_MODES_SEQUENCE,
                           &perturbed.scene))
         return PERCUSS_INTERNAL;
     enum percuss_status status = PERCUSS_OK;
@@ -368,7 +365,7 @@ static enum percuss_status single_by_order(const struct model_margin *margin, st
     const struct solution *solution = margin->solution;
     double all = deviation_stiffness(&margin->deviation[0], &margin->impact[0]);
     double expected = solution->error.modes.strained * sensitivity(margin) * all;
-    if (!(all > 0.0) || expected > STRAIN_EXPECTED)
+    if (!(all > 0.0))
         return PERCUSS_OK;
     bool bends = solution->scene->laws[0].operations->three_halves;
     bool curved = bends && expected > STRAIN_MODELS;

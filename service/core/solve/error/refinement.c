@@ -156,9 +156,8 @@ static enum percuss_status by_first_order(struct comparison *comparison)
         return PERCUSS_OK;
     /* the steps' part of one impact is amplified alike */
     double modes = FACTOR_FIRST_ORDER * change;
-    double stray = tolerance >= TOLERANCE_FOLLOWED ? STRAY_COARSE : STRAY_FINE;
     double left = attempt_steps_leave(comparison->best->accuracy);
-    double steps = fmax(left * fmax(1.0, change / slow), stray);
+    double steps = fmax(left * fmax(1.0, change / slow), STRAY);
     double allowed = SHARE_BOTH * tolerance;
     double both = hypot(modes, steps); /* they are independent */
     if (modes <= allowed && both > allowed)
@@ -184,7 +183,7 @@ static bool always_applies(const struct comparison *comparison)
 static bool is_struck_by_others(const struct problem *problem, const struct attempt *best)
 {
     size_t n = problem->contact_count;
-    double slight = SLIGHT * problem_largest_compression(problem);
+    double slight = NEGLIGIBLE * problem_largest_compression(problem);
     for (size_t c = 0; n > 1 && c < n; c++)
         if (outcome_restitution(problem, &best->outcome, c) > STRUCK ||
             (problem->impulse_compression[c] > 0.0 && problem->impulse_compression[c] < slight))
@@ -457,9 +456,9 @@ static void improve(const struct attempt_context *context, const struct mode_err
 {
     double factor = AIM * context->problem->tolerance / error->restitution;
     if (error->verdict == MODES_BELOW_STEPS)
-        next->accuracy = fmax(next->accuracy / LONGER_STEPS, ATTEMPT_FINEST);
+        next->accuracy = fmax(next->accuracy / LONGER_STEPS, FINEST_STEPS);
     else
-        next->choice.allowed *= fmin(fmax(factor, LARGEST_RAISE), AIM);
+        next->choice.allowed *= fmin(factor, AIM);
 }
 
 static bool modes_suffice(const struct attempt_context *context, const struct mode_error *error)
@@ -513,8 +512,6 @@ enum percuss_status refine_modes(struct attempt_context *context, struct attempt
 
 /* Each takes a hundredth: six digits in all. */
 enum { MAX_TIGHTENINGS = 3 };
-/* Share of the effort allowed that shorter steps get where those before lose the energy. */
-static const double LAST_EFFORT = 0.5;
 
 /* Effect of the time steps on the restitution without a second solution: the energy that the phases
  * gain or lose, as if all of it were the rebound's (e^2 is its share of the available energy), and
@@ -543,13 +540,13 @@ static struct step_error estimate_alone(const struct attempt_context *context,
 /* Adds the difference to a solution with longer steps, `known` where there is one already. One that
  * was cut off says nothing. */
 static enum percuss_status compare_steps(struct attempt_context *context,
-                                         const struct attempt *best, double longer,
-                                         const struct attempt *known, struct step_error *error)
+                                         const struct attempt *best, const struct attempt *known,
+                                         struct step_error *error)
 {
     /* a solution with longer steps */
     struct attempt own = *best;
     if (!known) {
-        own.accuracy *= longer;
+        own.accuracy *= LONGER_STEPS;
         if (attempt_is_sequence(best))
             attempt_by_other_means(&own);
         enum percuss_status status = attempt_run(context, &own, &best->assembly->scene);
@@ -584,23 +581,19 @@ static enum percuss_status estimate_steps(struct attempt_context *context,
     *error = estimate_alone(context, best);
     if (compared || (!sequence && context->problem->tolerance >= TOLERANCE_COMPARED))
         return PERCUSS_OK;
-    enum percuss_status status = compare_steps(context, best, LONGER_STEPS, coarse, error);
-    bool again = sequence && (attempt_is_long(best) || context->problem->contact_count > 1);
-    if (!status && again && error->restitution <= SHARE_STEPS * context->problem->tolerance)
-        status = compare_steps(context, best, SLIGHTLY_LONGER_STEPS, NULL, error);
-    return status;
+    return compare_steps(context, best, coarse, error);
 }
 
 /* A hundred times finer steps. A solution that does not keep its energy is no answer: shorter steps
- * get the rest of the effort then. *found: it replaced the one before. */
+ * get all of the effort then. *found: it replaced the one before. */
 static enum percuss_status shorten(struct attempt_context *context, struct attempt *best,
                                    bool keeps_energy, bool *found)
 {
     struct attempt finer = *best;
     double allowed = attempt_work_allowed(context->problem->request->options.method);
-    finer.accuracy = fmax(best->accuracy / LONGER_STEPS, ATTEMPT_FINEST);
+    finer.accuracy = fmax(best->accuracy / LONGER_STEPS, FINEST_STEPS);
     if (!keeps_energy)
-        context->work = fmax(context->work, LAST_EFFORT * allowed);
+        context->work = allowed;
     enum percuss_status status = best->log
                                      ? attempt_run_logged(context, &finer, &best->assembly->scene)
                                      : attempt_run(context, &finer, &best->assembly->scene);
@@ -638,7 +631,7 @@ enum percuss_status refine_steps(struct attempt_context *context, struct attempt
         if (status || !found)
             return status;
         /* a last, smaller step down is no measure */
-        coarse = best->accuracy > ATTEMPT_FINEST ? &before : NULL;
+        coarse = best->accuracy > FINEST_STEPS ? &before : NULL;
         /* solutions with longer steps are not as accurate; their differences are in the errors */
         neighbours_begin(context->neighbours, context->problem, &best->outcome);
         neighbours_add(context->neighbours, context->problem, &before.outcome);

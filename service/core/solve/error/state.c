@@ -13,8 +13,6 @@
 /* Starts that are tried for the errors of modes and steps, and of the models: modes are wrong one
  * way or the other by chance. */
 static const uint64_t STARTS[2] = {3, 2};
-/* Work that one of them may take, in those of the answer. */
-static const double EFFORT = 10.0;
 
 /* +1 or -1 for each mode of each start (Steele, Lea and Flood's SplitMix64, 2014). */
 static double sign_of(uint64_t start, uint64_t group, uint64_t mode, uint64_t which)
@@ -122,7 +120,7 @@ static enum percuss_status solve_starts(struct attempt_context *context,
                                         const struct solution *solution, bool model,
                                         double *farthest, double *vibration)
 {
-    const double effort = EFFORT * impact_work(solution->scene, &solution->outcome);
+    const double effort = PERTURBED_WORK * impact_work(solution->scene, &solution->outcome);
     for (uint64_t start = 0; start < STARTS[model]; start++) {
         struct scene scene = *solution->scene;
         struct attempt attempt = {.accuracy = solution->step_accuracy,
