@@ -13,7 +13,7 @@ enum { NO_STEP = -1 };
 bool carrier_create(struct carrier *carrier, const struct scene *scene, struct arena *arena)
 {
     *carrier = (struct carrier){.level = NO_STEP};
-    /* pairs of arrays, one behind the other */
+    /* pairs of consecutive arrays */
     carrier->q = arena_reserve(arena, 2 * scene->groups, sizeof *carrier->q);
     if (!carrier->q)
         return false;
@@ -29,13 +29,13 @@ bool carrier_create(struct carrier *carrier, const struct scene *scene, struct a
     return true;
 }
 
-/* Of undamped modes; NULL: damped. */
+/* The middle's table; NULL: damped. */
 static const double *middle_of(const struct scene_group *group, int level)
 {
     return group->set->tables[level]->middle;
 }
 
-/* The turn from the middle of a step to that of the next, where there is one for it. */
+/* Turn from a step's middle to the next one's. False: their lengths differ too much. */
 static bool find_turn(int level, int next, enum middle_term *turn)
 {
     static const enum middle_term turns[] = {TURN_LONGER, TURN_WHOLE, TURN_SHORTER};
@@ -46,7 +46,7 @@ static bool find_turn(int level, int next, enum middle_term *turn)
     return true;
 }
 
-/* The forces of the step that was taken. */
+/* Applies the forces of the taken step. */
 static void kick(const struct carrier *carrier, const struct scene *scene,
                  const struct scene_group *group, double *const state[2])
 {
@@ -56,19 +56,19 @@ static void kick(const struct carrier *carrier, const struct scene *scene,
             kernel_kick(middle, group->stride, group->participation[c], carrier->force[c], state);
 }
 
-/* Undamped modes, from wherever they are to the middle of the step of `level`. */
+/* Turns undamped modes from their instant to the middle of the step of `level`. */
 static void turn_to(const struct carrier *carrier, const struct scene_group *group,
                     const double *const start[2], int level, double *const state[2])
 {
     const double *const here[2] = {state[0], state[1]};
     const double *from = carrier->level < 0 ? NULL : middle_of(group, carrier->level);
-    /* by way of the step's end, or back to its start if it was not taken */
+    /* to the last step's end, or back to its start if it was not taken */
     if (from)
         kernel_turn(from, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride, here, state);
     kernel_turn(middle_of(group, level), TURN_HALF, 1.0, group->stride, from ? here : start, state);
 }
 
-/* Undamped modes of a group go on to a step of `level`, part by part. */
+/* Moves a group's undamped modes to a step of `level`, pass by pass. */
 static void enter(const struct carrier *carrier, const struct scene *scene, size_t g,
                   const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {
@@ -83,8 +83,8 @@ static void enter(const struct carrier *carrier, const struct scene *scene, size
                          (const double *const[]){state[0], state[1]}, sums[c]);
 }
 
-/* The contact whose part goes in one pass with the turn: one that bears a force, if any does that
- * moves the group. NONE: none moves it. */
+/* Chooses the contact for the pass that includes the turn: one that moves the group, and bears a
+ * force if any such does. NONE: no contact moves it. */
 enum { NONE = PERCUSS_MAX_CONTACTS };
 static size_t choose_one(const struct carrier *carrier, const struct scene *scene,
                          const double *const *phi)
@@ -96,7 +96,7 @@ static size_t choose_one(const struct carrier *carrier, const struct scene *scen
     return one;
 }
 
-/* A group that no contact moves. */
+/* Turns a group without contact. */
 static void turn_on(const struct kernel_carry *carry, const struct scene_group *group,
                     double *const state[2])
 {
@@ -104,7 +104,7 @@ static void turn_on(const struct kernel_carry *carry, const struct scene_group *
                 (const double *const[]){state[0], state[1]}, state);
 }
 
-/* The same from a step that was taken to one about as long. */
+/* The same in one pass, to a step at most twice or half as long. */
 static void enter_next(const struct carrier *carrier, const struct scene *scene, size_t g,
                        struct kernel_carry *carry, double (*sums)[STEP_POINTS])
 {
@@ -117,7 +117,7 @@ static void enter_next(const struct carrier *carrier, const struct scene *scene,
         turn_on(carry, group, state);
         return;
     }
-    /* the others' forces before it, their approaches behind */
+    /* the others: forces before it, approaches after it */
     carry->force = carrier->force[one];
     for (size_t c = 0; c < scene->contacts; c++)
         if (c != one && phi[c] && motion_bears(carrier->force[c]))
@@ -129,7 +129,7 @@ static void enter_next(const struct carrier *carrier, const struct scene *scene,
                          (const double *const[]){state[0], state[1]}, sums[c]);
 }
 
-/* The same of a damped group, from the start of the step. */
+/* The same for a damped group, from the step's start. */
 static void enter_damped(const struct scene *scene, const struct scene_group *group,
                          const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {
@@ -139,7 +139,6 @@ static void enter_damped(const struct scene *scene, const struct scene_group *gr
                          start[0], start[1], sums[c]);
 }
 
-/* Group by group. */
 static void enter_groups(const struct carrier *carrier, const struct scene *scene,
                          const struct motion *motion, int level, double (*sums)[STEP_POINTS])
 {
@@ -159,8 +158,8 @@ static void enter_groups(const struct carrier *carrier, const struct scene *scen
     }
 }
 
-/* Most steps are such: undamped modes go on from a step of the only contact to one about as long.
- * False: not this one. */
+/* Fast path of most steps: one contact, undamped modes, a taken step and one about as long. False:
+ * it does not apply. */
 static inline bool enter_only(const struct carrier *carrier, const struct scene *scene, int level,
                               double sums[STEP_POINTS])
 {
@@ -195,7 +194,7 @@ void carrier_enter(struct carrier *carrier, const struct scene *scene, const str
     carrier->force = NULL;
 }
 
-/* The rigid gap of the only contact at the end of a step, without loops. */
+/* Moves the only contact's rigid gap to the end of a step, without loops. */
 static inline void take_gap(const struct scene *scene, struct motion *motion, int level,
                             const double force[NODES])
 {
@@ -211,7 +210,7 @@ static inline void take_gap(const struct scene *scene, struct motion *motion, in
     motion->gap_rate[0] += scene->w[0] * impulse;
 }
 
-/* Of several, those that bear a force. */
+/* Moves the gaps of several contacts. */
 static void take_gaps(const struct scene *scene, struct motion *motion, int level,
                       double (*const force)[NODES])
 {
@@ -221,7 +220,7 @@ static void take_gaps(const struct scene *scene, struct motion *motion, int leve
             motion_push_gaps(motion, scene, level, c, force[c]);
 }
 
-/* Damped modes at the end of the step. */
+/* Moves damped modes to the step's end. */
 static void take_damped(const struct scene *scene, struct motion *motion, int level,
                         double (*const force)[NODES])
 {

@@ -7,7 +7,7 @@
 #ifndef PERCUSS_IMPACT_COLLOCATION_H
 #define PERCUSS_IMPACT_COLLOCATION_H
 
-/* and with the step's end */
+/* the nodes and the step's end */
 enum { NODES = 4, STEP_POINTS = NODES + 1 };
 
 struct collocation {

@@ -12,10 +12,10 @@
 #include "impact/kernel.h"
 #include "impact/march.h"
 
-/* Of all contacts, and intervals of a flight: some hundred times what an impact takes. */
+/* Steps of all contacts, and intervals of a flight: some hundred times as many as needed. */
 enum { MAX_STEPS = 100000 };
 
-/* What F = k d^(3/2) has for its stiffness over F/d: the region's, for the books. */
+/* Ratio of dF/dd to F/d of F = k d^(3/2), taken for the region's stiffness. */
 static const double HERTZ_POWER = 1.5;
 
 /* A dent less deep than this share of the indentation is the region's rounding. */
@@ -36,7 +36,7 @@ struct concurrent {
     double work;             /* of the force on the region, J */
 };
 
-/* What forces at the nodes do to a state at the end of the step. */
+/* Adds the effect of nodal forces to a state at the step's end. */
 static void push(const struct concurrent *run, const double force[NODES], struct motion *end)
 {
     double h = step_length(run->level);
@@ -66,8 +66,8 @@ static void rising(double to, double force[NODES])
         force[j] = to * collocation.node[j];
 }
 
-/* A sub-impact begins: its step, and what a force does within one. OK, INTERNAL without memory, or
- * TIMEOUT. */
+/* Begins a sub-impact: chooses its step and finds the response to a force. OK, INTERNAL without
+ * memory, or TIMEOUT. */
 static enum percuss_status begin_contact(struct concurrent *run)
 {
     double d;
@@ -76,14 +76,14 @@ static enum percuss_status begin_contact(struct concurrent *run)
     struct march *march = &run->march;
     const struct scene *scene = &march->scene;
     const struct motion *now = &march->outcome->motion;
-    /* the step: a share of what a contact at this speed takes, or of what is left of the window */
+    /* the step: a share of a contact's duration at this speed, or of the rest of the window */
     motion_approach(now, scene, 0, &d, &rate);
     run->scale = impact_scale_of(march->stated, 0, rate);
     double lasts = fmin(HERTZ_DURATION * run->scale.duration, march->horizon - now->time);
     run->level = step_level(lasts / run->least_steps);
     while (run->level > 0 && now->time + step_length(run->level) == now->time)
         run->level--;
-    /* what a force that rises to 1 N does to bodies at rest */
+    /* response of bodies at rest to a force that rises to 1 N */
     enum percuss_status status = scene_prepare(scene, run->level, march->pace);
     if (status != PERCUSS_OK)
         return pace_fault(march->fault, status);
@@ -101,8 +101,7 @@ static enum percuss_status begin_contact(struct concurrent *run)
     return PERCUSS_OK;
 }
 
-/* One step past the deepest: the parabola through three depths says where between the steps it was.
- */
+/* Moves the end of compression to the vertex of the parabola through the last three depths. */
 static void end_compression(const struct concurrent *run, double depth, struct sub_impact *open)
 {
     double bend = depth - 2.0 * run->depth + run->earlier;
@@ -114,7 +113,7 @@ static void end_compression(const struct concurrent *run, double depth, struct s
     open->compression_impulse += time * run->force;
 }
 
-/* The books of the step from the present to its end. */
+/* Records a step: work, impulse, estimates, maxima. */
 static void keep_books(struct concurrent *run, double depth, const struct region_answer *answer)
 {
     struct track *track = &run->march.outcome->tracks[0];
@@ -125,11 +124,11 @@ static void keep_books(struct concurrent *run, double depth, const struct region
     /* force and depth are lines along the step: work and impulse */
     run->work += 0.5 * (run->force + answer->force) * (depth - run->depth);
     track->open.impulse += 0.5 * h * (run->force + answer->force);
-    /* what omitted inertia and viscosity would do, by the stiffness of Hertz' law */
+    /* effects of omitted inertia and viscosity, by Hertz' stiffness */
     track->inertia += (stiffness - run->stiffness) * change / h;
     track->viscosity += change * change / h;
     run->stiffness = stiffness;
-    /* the deepest of this sub-impact, which ends its compression */
+    /* this sub-impact's largest depth ends its compression */
     if (depth < run->depth && run->depth == track->open.max_indentation)
         end_compression(run, depth, &track->open);
     if (depth > track->open.max_indentation) {
@@ -138,7 +137,7 @@ static void keep_books(struct concurrent *run, double depth, const struct region
         track->open.compression_impulse = track->open.impulse;
     }
     run->peak = fmax(run->peak, answer->force);
-    /* the deepest ever, which is the dent's history */
+    /* the largest depth so far is the history */
     if (run->bottom + depth > history->max_indentation) {
         history->max_indentation = run->bottom + depth;
         history->max_force = answer->force;
@@ -146,7 +145,7 @@ static void keep_books(struct concurrent *run, double depth, const struct region
     }
 }
 
-/* The contact is open again, or the window ends: the dent deepens to where the surfaces part. */
+/* Ends a sub-impact or the window: the dent deepens to where the surfaces part. */
 static enum percuss_status end_contact(struct concurrent *run, double time)
 {
     struct march *march = &run->march;
@@ -163,8 +162,8 @@ static enum percuss_status end_contact(struct concurrent *run, double time)
     return PERCUSS_OK;
 }
 
-/* One step to its equilibrium: the force falls on a line from the present one to none, and rises on
- * another to the new one. */
+/* Solves one step. The force is the sum of a line from the present force to 0 and a line from 0 to
+ * the new one. */
 static enum percuss_status step(struct concurrent *run, bool *open)
 {
     double force[NODES];
@@ -174,12 +173,12 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     struct region_answer answer;
     struct march *march = &run->march;
     struct motion *now = &march->outcome->motion;
-    /* where the bodies would be, and the force that its indentation then has */
+    /* the approach at the end without the new force */
     motion_step(&run->end, now, &march->scene, run->level);
     falling(run->force, force);
     push(run, force, &run->end);
     motion_approach(&run->end, &march->scene, 0, &approach, &rate);
-    /* its equilibrium, and the bodies under the new force */
+    /* the equilibrium, and the bodies under the new force */
     enum percuss_status status =
         region_approach(run->region, run->bottom + approach,
                         march->scene.residual[0] - run->response, &answer, march->fault);
@@ -189,7 +188,7 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     region_commit(run->region);
     rising(answer.force, force);
     push(run, force, &run->end);
-    /* what damping took, the books, and the end as the present */
+    /* the damping loss, the records and the new present */
     for (int j = 0; j < NODES; j++)
         force[j] += run->force * (1.0 - collocation.node[j]);
     march->damping += contact_step_loss(&march->scene, now, run->level, &force);
@@ -205,7 +204,7 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     return PERCUSS_OK;
 }
 
-/* From a touch until the contact is open again, or the end. */
+/* Steps from a touch until the contact opens, or to the end. */
 static enum percuss_end_reason contact_phase(void *state, size_t contact)
 {
     struct concurrent *run = state;
@@ -223,15 +222,15 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
         else if (!open && now->time >= march->horizon)
             end = PERCUSS_END_IN_CONTACT;
     }
-    /* the force fell to nothing within the last step, and nearly all of it before */
+    /* an opening is placed in the middle of the last step */
     if (status == PERCUSS_OK)
         status = end_contact(run, now->time - (open ? 0.5 * step_length(run->level) : 0.0));
-    /* every flight has all of its intervals */
+    /* each flight may use all intervals */
     march->used = 0;
     return status == PERCUSS_OK ? end : march_fail(march, status);
 }
 
-/* The region's history in place of the law's, and flow with residual stresses from its ledger. */
+/* Stores the region's history instead of the law's, and its plastic and residual elastic energy. */
 static void end_march(void *state)
 {
     struct concurrent *run = state;
@@ -261,7 +260,7 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
                                        .fault = fault},
                              .least_steps = settings->steps,
                              .region = region};
-    /* the march, which the pace stops in the region too */
+    /* the pace stops the march in the region too */
     region_watch(region, settings->pace, settings->done);
     if (!march_create(&run.march, arena) || !motion_create(&run.end, scene, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -270,7 +269,7 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
         return fault_set(fault, status, "stopped at %g s of the impact", outcome->motion.time);
     if (status != PERCUSS_OK || outcome->end_reason != PERCUSS_END_IN_CONTACT)
         return status;
-    /* under load the mesh holds a part of the elastic energy only: what the force has put in */
+    /* under load the mesh holds only a part of the elastic energy; the force's work is all */
     double stored = run.work - outcome->plastic + 0.5 * scene->residual[0] * run.force * run.force;
     outcome->energy.stored += stored;
     outcome->energy.closure -= stored;
