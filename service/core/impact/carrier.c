@@ -96,7 +96,7 @@ static size_t choose_one(const struct carrier *carrier, const struct scene *scen
     return one;
 }
 
-/* Turns a group without contact. */
+/* Turns a group that no contact moves. */
 static void turn_on(const struct kernel_carry *carry, const struct scene_group *group,
                     double *const state[2])
 {

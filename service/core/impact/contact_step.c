@@ -13,20 +13,20 @@
 
 /* Newton's method takes two to five iterations, and some ten from a bad start. */
 enum { MAX_ITERATIONS = 40 };
-/* Contact by contact some five; where it takes so many, all at once are the shorter way. */
+/* Contact by contact takes some five; if it takes so many, all at once is cheaper. */
 enum { MAX_APART = 20 };
 
-/* One contact: its method squares the relative change, so that after this one rounding is left. */
+/* One contact: Newton's method squares the relative change, which leaves rounding after this. */
 static const double SQUARES_TO_ROUNDING = 1e-7;
-/* What rounding leaves of an approach, which can be far larger than the indentation. */
+/* Relative rounding of an approach, which can far exceed the indentation. */
 static const double APPROACH_ROUNDING = 1e-15;
 
-/* Several contacts: change of the indentations over their largest, or over the largest approach,
- * which is some ten roundings; and what is accepted where the law's kinks keep it from that. */
+/* Several contacts: change of the indentations over the largest indentation or approach, some ten
+ * roundings; and the limit after all iterations, where kinks of the law prevent that. */
 static const double TO_ROUNDING = 1e-14;
 static const double AFTER_ALL = 1e-9;
 
-/* Share of the law's compliance that a negative series compliance may take away. */
+/* Share of the law's compliance that a negative series compliance may cancel. */
 static const double BEARABLE = 0.5;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
@@ -34,7 +34,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
 {
     size_t n = scene->contacts;
     *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
-    /* arrays of a kind, one behind the other */
+    /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
     step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
@@ -124,7 +124,7 @@ static inline double larger(double a, double b)
     return b > a || isnan(b) ? b : a;
 }
 
-/* What the other contacts' forces take from the approaches. */
+/* Reductions of the approaches by other contacts' forces. */
 static void take_residual(const struct scene *scene, const double *force, double *taken)
 {
     size_t n = scene->contacts;
@@ -139,9 +139,9 @@ static void take_residual(const struct scene *scene, const double *force, double
     }
 }
 
-/* Several contacts: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a, each beside the
- * others' forces as they are, until a relative change below `last` of those that press: the changes
- * fall by a share at a time. False: not fast enough. */
+/* Several contacts: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a, each with the
+ * others' forces fixed, until a relative change of the pressed ones below `last`. It converges
+ * linearly. False: too slowly. */
 static bool local_apart(const struct scene *scene, const double *approach, double last,
                         double *indentation, double *force)
 {
@@ -150,7 +150,7 @@ static bool local_apart(const struct scene *scene, const double *approach, doubl
     double stiffness[PERCUSS_MAX_CONTACTS];
     double change[PERCUSS_MAX_CONTACTS];
     double previous = INFINITY;
-    double share = 0.0; /* of the change before it, that the last but one was */
+    double share = 0.0; /* ratio of the last two changes */
     for (int iteration = 0; iteration < MAX_APART; iteration++) {
         double largest = 0.0;
         double scale = 0.0;
@@ -195,7 +195,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         double change = 0.0;
         double scale = 0.0;
-        bool squared = true; /* what is left are squares of changes, which are rounding */
+        bool squared = true; /* the errors are squares of changes: rounding */
         /* the excess e, and the matrix 1 + C F' */
         for (size_t c = 0; c < n; c++)
             force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
@@ -231,7 +231,7 @@ bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
     return -scene->residual[contact * (scene->contacts + 1)] * stiffness < BEARABLE;
 }
 
-/* Several contact by contact until a relative change below `last`, or else all at once. */
+/* Solves contact by contact to a relative change below `last`, or else all at once. */
 static bool find_local(const struct scene *scene, const double *approach, double last,
                        double *indentation, double *force, double *matrix)
 {
@@ -253,7 +253,7 @@ bool contact_local_indentation(const struct scene *scene, const double *approach
     return find_local(scene, approach, SQUARES_TO_ROUNDING, indentation, force, matrix);
 }
 
-/* Indentations at the nodes as the step before has it: a Taylor series. */
+/* Indentations at the nodes by the start's Taylor series. */
 static void foresee(struct contact_step *step, size_t contact, const struct contact_start *from,
                     double h)
 {
@@ -269,7 +269,7 @@ static void foresee(struct contact_step *step, size_t contact, const struct cont
     }
 }
 
-/* Approaches at the end of the step under its forces. */
+/* Approaches at the step's end under its forces. */
 static void find_approaches(struct contact_step *step, const struct scene *scene, int level)
 {
     if (scene->contacts == 1) {
@@ -284,7 +284,7 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
 
-/* The contacts at the end of the step, from where the cubics end, as exactly as their nodes. */
+/* Solves the contacts at the step's end, from the cubics' values, as exactly as the nodes. */
 static bool find_end(struct contact_step *step, const struct scene *scene, int level)
 {
     find_approaches(step, scene, level);
@@ -305,7 +305,7 @@ static void foresee_all(struct contact_step *step, size_t contacts,
         foresee(step, c, &start[c], step_length(level));
 }
 
-/* All contacts at once, from the start again. */
+/* Solves all at once, from the start again. */
 static enum contact_step_end solve_together(struct contact_step *step,
                                             const struct node_problem *problem,
                                             const struct contact_start *start)

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The steps of a contact phase: the forces at the nodes are the only unknowns, the modes between
- * them are exact. */
+/* Solves the steps of a contact phase: the nodal forces are the only unknowns, the modes are exact.
+ */
 #ifndef PERCUSS_IMPACT_CONTACT_STEP_H
 #define PERCUSS_IMPACT_CONTACT_STEP_H
 
@@ -17,19 +17,19 @@ struct contact_step {
     double (*force)[NODES];
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
     double *end_indentation;    /* [contact] */
-    double loss;                /* taken by damping, J */
+    double loss;                /* energy lost to damping, J */
     unsigned long iterations;   /* Newton's, since creation */
     double last_change;         /* relative, see node_solver.h */
 
     struct carrier carrier;
     struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */
-    double (*taken)[STEP_POINTS];  /* what the forces take from them */
+    double (*taken)[STEP_POINTS];  /* their reductions by the forces */
     double *matrix;                /* contacts^2 */
-    double *together; /* (contacts NODES)^2: NULL until contacts had to be solved for at once */
+    double *together;              /* (contacts NODES)^2; NULL before a solution of all at once */
     double *approach, *end_force;
     struct arena *arena;
-    struct pace *pace; /* asked before a level's tables are made; NULL (as created): nobody */
+    struct pace *pace; /* asked before a level's tables are made; NULL (as created): none */
 };
 
 /* Memory for a scene from the arena. `accuracy`: relative, of the forces; 0: to rounding. False:
@@ -42,18 +42,18 @@ struct contact_start {
     double indentation; /* m */
     double rate;        /* m/s */
     double curvature;   /* m/s^2 */
-    double bend;        /* its rate, m/s^3 */
+    double bend;        /* rate of curvature, m/s^3 */
 };
 
 enum contact_step_end {
     STEP_SOLVED,
-    STEP_UNSOLVED, /* no solution was found: it is too long */
+    STEP_UNSOLVED, /* no solution: the step is too long */
     STEP_STOPPED,  /* by the pace */
-    STEP_MEMORY    /* it ran out */
+    STEP_MEMORY    /* out of memory */
 };
 
 /* Solves a step of a level from `motion`, which is not changed; `start` by contact. From the first
- * one on the motion's modes are the step's, until contact_step_leave. */
+ * call on `step` holds the undamped modes, until contact_step_leave. */
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start);
@@ -61,18 +61,18 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
 /* Makes the end of the step just solved the present. */
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion);
 
-/* Ends a phase, after any step, solved, taken or not: the motion is whole at the present. */
+/* Ends a phase after any step, taken or not: the motion holds all modes at the present. */
 void contact_step_leave(struct contact_step *step, const struct scene *scene,
                         struct motion *motion);
 
-/* Energy (J) that damping takes on a step from `motion`, at a level whose tables are ready, under
- * the contacts' forces at the nodes: the quadratic forms of the tables. */
+/* Energy (J) lost to damping on a step from `motion` under the contacts' nodal forces, by the
+ * quadratic forms of the level's tables, which must be ready. */
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
                          double (*const force)[NODES]);
 
-/* Whether the series compliance of a contact bears a law of that stiffness, N/m: a negative one
- * (see solve/contact_model.h) takes |C| dF/dd < 0.5, else small differences of the approach are large
- * ones of the indentation, and from 1 on there are several. */
+/* Whether the series compliance C of a contact permits a law of that stiffness, N/m. A negative C
+ * (see solve/contact_model.h) needs |C| dF/dd < 0.5: above, small changes of the approach are large
+ * ones of the indentation, which is not unique from 1 on. */
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness);
 
 /* Local indentations and forces of all contacts for approaches d: F_i = law_i(d_i - sum_j C_ij F_j)

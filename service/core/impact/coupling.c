@@ -17,7 +17,7 @@ static bool share_modes(const struct scene *scene, size_t a, size_t b)
     return false;
 }
 
-/* Which contacts share what. */
+/* Finds the coupled pairs. */
 static void find_pairs(struct coupling *coupling, const struct scene *scene)
 {
     size_t n = scene->contacts;
@@ -85,7 +85,7 @@ void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
     }
 }
 
-/* The block of b on a among those of a level, which are of all pairs. */
+/* Finds the block of b on a among a level's blocks of all pairs. */
 static struct coupling_block *find_block(const struct coupling *coupling,
                                          struct coupling_block *blocks, size_t a, size_t b)
 {
@@ -146,7 +146,6 @@ static inline void multiply(const double *m, const double force[NODES], quad *no
     *end += (last[0] + last[1]) + (last[2] + last[3]);
 }
 
-/* Block by block. */
 VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t contacts,
                                          int level, double (*const force)[NODES],
                                          double (*taken)[STEP_POINTS])
@@ -167,7 +166,7 @@ VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t
     }
 }
 
-/* Through the rigid bodies and the residual flexibility, pair by pair. */
+/* Effect of rigid bodies and residual flexibility, pair by pair. */
 VECTOR_CLONES static void take_rigid(const struct coupling *coupling, size_t contacts, double h,
                                      double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
@@ -191,7 +190,7 @@ VECTOR_CLONES static void take_rigid(const struct coupling *coupling, size_t con
     }
 }
 
-/* What the forces through `phi` do to the modes. */
+/* Adds modal forces of the forces at `phi`. */
 VECTOR_CLONES static void gather(size_t length, const double *phi, const double force[NODES],
                                  double *thrust)
 {
@@ -200,7 +199,7 @@ VECTOR_CLONES static void gather(size_t length, const double *phi, const double 
         QUAD(thrust + k * NODES) += phi[k] * f;
 }
 
-/* Where the modes go under these at the nodes and the end. */
+/* Modal displacements by these forces at nodes and end. */
 VECTOR_CLONES static void respond(const double *response, size_t length, const double *thrust,
                                   double *answer)
 {
@@ -214,7 +213,7 @@ VECTOR_CLONES static void respond(const double *response, size_t length, const d
     }
 }
 
-/* And what that is at a contact. */
+/* Sums these at a contact. */
 VECTOR_CLONES static void scatter(size_t length, const double *phi, const double *answer,
                                   double taken[STEP_POINTS])
 {
@@ -226,7 +225,7 @@ VECTOR_CLONES static void scatter(size_t length, const double *phi, const double
         taken[i] += TOTAL(sum[i]);
 }
 
-/* Through the modes of a group. */
+/* Effect of a group's modes. */
 static void take_by_modes(const struct coupling *coupling, const struct scene *scene,
                           const struct scene_group *group, int level, double (*const force)[NODES],
                           double (*taken)[STEP_POINTS])
@@ -258,7 +257,7 @@ void coupling_take(const struct coupling *coupling, const struct scene *scene, i
         take_by_modes(coupling, scene, &scene->group[g], level, force, taken);
 }
 
-/* The rows of the end alone. */
+/* Only the rows of the end. */
 static void end_by_blocks(const struct coupling *coupling, size_t contacts, int level,
                           double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {

@@ -2,10 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Effects of the contacts' forces on a step on each other's approaches: through the rigid bodies,
- * the residual flexibility and the modes. Only pairs that share something are looked at. Few
- * contacts have a block of numbers for each pair; of many, the forces go to the modes and from
- * there to the contacts, so that a contact more costs its modes and not a block for each other one.
- */
+ * the residual flexibility and the modes. Only pairs that share one of these are computed. Few
+ * contacts have a block for each pair. With many, the forces move the modes and these the contacts,
+ * so that one more contact costs its modes, not a block for each other contact. */
 #ifndef PERCUSS_IMPACT_COUPLING_H
 #define PERCUSS_IMPACT_COUPLING_H
 
@@ -13,10 +12,10 @@
 #include "base/watch.h"
 #include "impact/scene.h"
 
-/* Up to so many contacts blocks of pairs are cheaper than the way by the modes. */
+/* Up to so many contacts, blocks of pairs are cheaper than sums over modes. */
 enum { COUPLING_FEW = 7 };
 
-/* Approach at node i, then at the end, that a unit force at node j takes away, m/N. */
+/* Reduction of the approach at node i, or at the end, by a unit force at node j, m/N. */
 struct coupling_block {
     double by[STEP_POINTS][NODES];
 };
@@ -28,11 +27,11 @@ struct coupling_pair {
 };
 
 struct coupling {
-    bool by_modes;               /* many contacts: blocks only of each with itself */
-    size_t *first;               /* [contacts + 1]: where a contact's pairs begin */
-    struct coupling_pair *pairs; /* those that share something, ascending; with itself always */
-    size_t blocks;               /* of a level */
-    size_t *own;                 /* [contact]: which block is its own */
+    bool by_modes;                             /* many contacts: blocks only of each with itself */
+    size_t *first;                             /* [contacts + 1]: where a contact's pairs begin */
+    struct coupling_pair *pairs;               /* coupled ones, ascending; always with itself */
+    size_t blocks;                             /* of a level */
+    size_t *own;                               /* [contact]: its own block */
     struct coupling_block *level[STEP_LEVELS]; /* NULL: not yet */
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
@@ -52,20 +51,20 @@ static inline const struct coupling_block *coupling_own(const struct coupling *c
     return &coupling->level[level][coupling->own[contact]];
 }
 
-/* Of force of contact b on contact a, among few contacts; NULL: they share nothing. */
+/* Effect of contact b's force on contact a, of few contacts; NULL: none. */
 const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
                                                   size_t a, size_t b);
 
-/* The same of any contacts. */
+/* The same for any number. */
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES]);
 
-/* taken[contact]: what these forces, [contact][node], take from its approach at the nodes and the
- * end. But for the end the residual flexibility is counted. */
+/* taken[contact] becomes the reduction of its approach at the nodes and the end by these forces,
+ * [contact][node]; without the residual flexibility at the end. */
 void coupling_take(const struct coupling *coupling, const struct scene *scene, int level,
                    double (*const force)[NODES], double (*taken)[STEP_POINTS]);
 
-/* The same for the end alone: what it leaves at the nodes is of no use. */
+/* The same for the end alone; the values at the nodes are undefined. */
 void coupling_take_end(const struct coupling *coupling, const struct scene *scene, int level,
                        double (*const force)[NODES], double (*taken)[STEP_POINTS]);
 

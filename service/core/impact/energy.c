@@ -21,8 +21,7 @@ static double form(size_t n, const double *m, const double *x, const double *y)
     return sum;
 }
 
-/* 1/w for one contact, the pseudo-inverse otherwise: motions that no contact sees carry no energy.
- */
+/* 1/w for one contact, else the pseudo-inverse: motions that change no gap carry no energy. */
 static double *effective_mass(const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts;
@@ -39,10 +38,10 @@ static double *effective_mass(const struct scene *scene, struct arena *arena)
     return mass;
 }
 
-/* Of motions that W does not yield to: such a share of all of them is rounding. */
+/* Motions outside the range of W below this share of the largest are rounding. */
 static const double NOT_DRIVEN = 1e-6;
 
-/* What of the rates, or accelerations, no force changes: x - W W^+ x. */
+/* Part of rates or accelerations that no force changes: x - W W^+ x. */
 static void find_driven(const struct scene *scene, const double *mass, const double *x,
                         double *driven)
 {
@@ -63,8 +62,8 @@ static void find_driven(const struct scene *scene, const double *mass, const dou
     }
 }
 
-/* Work of contacts that close by rates or accelerations which a singular W does not yield to, as if
- * bodies without end drove them: -int (u + b t) F dt. */
+/* Work of the rates u and accelerations b outside the range of a singular W, as if infinite masses
+ * drove the contacts: -int (u + b t) F dt. */
 static double driven_work(const struct scene *scene, const double *mass,
                           const struct impact_outcome *outcome)
 {
@@ -107,7 +106,7 @@ static double stored_energy(const struct scene *scene, const struct contact_law 
     return sum + 0.5 * form(scene->contacts, scene->residual, force, force);
 }
 
-/* The work of the acceleration on what both gaps of a contact may be off by, half a bit each. */
+/* Work of the acceleration over the rounding of both gaps of a contact, half a bit each. */
 static double rounding_of_work(const struct scene *scene, const double *mass,
                                const struct motion *end)
 {
@@ -122,7 +121,7 @@ static double rounding_of_work(const struct scene *scene, const double *mass,
     return sum;
 }
 
-/* Of the terms of the energy that is available. */
+/* Relative, of the available energy's terms. */
 static const double ROUNDING_OF_SUM = 32.0 * DBL_EPSILON;
 
 bool energy_audit(const struct scene *scene, const double *indentation, double damping,
@@ -134,32 +133,31 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     double *travel = arena_take(arena, n, sizeof *travel);
     if (!mass || !travel)
         return false;
-    /* how far the bodies moved: what a dent adds to its gap is no motion */
+    /* travel of the bodies: the gap's change less the dent's */
     for (size_t c = 0; c < n; c++)
         travel[c] = end->gap[c] - scene->gap[c] -
                     (outcome->laws[c].history.dent - scene->laws[c].history.dent);
 
     struct impact_energy *energy = &outcome->energy;
     *energy = (struct impact_energy){.damping = damping, .plastic = outcome->plastic};
-    /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
+    /* the acceleration is a force W^+ a, which works over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
                         initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel) +
                         driven_work(scene, mass, outcome);
-    /* what the bodies and the laws hold at the end */
+    /* energies of bodies and laws at the end */
     energy->rigid_after = 0.5 * form(n, mass, end->gap_rate, end->gap_rate);
     for (size_t b = 0; b < scene->bodies; b++) {
         outcome->vibration[b] = motion_vibration(end, scene, b);
         energy->vibration += outcome->vibration[b];
     }
     energy->stored = stored_energy(scene, outcome->laws, indentation);
-    /* what is missing */
     energy->closure = energy->available - energy->rigid_after - energy->vibration -
                       energy->damping - energy->plastic - energy->stored;
-    /* what a gap far larger than its travel cannot tell is not missing */
+    /* a gap far larger than its travel rounds it: no error */
     double rounding = rounding_of_work(scene, mass, end);
     if (fabs(energy->closure) <= rounding)
         energy->closure = 0.0;
-    /* nor is what is left where acceleration has taken all of it */
+    /* the acceleration may take all energy except for rounding */
     double initial = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate);
     rounding += ROUNDING_OF_SUM * (initial + initial_vibration(scene));
     if (energy->available < 0.0 && -energy->available <= rounding) {

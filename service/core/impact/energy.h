@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The energy audit: every term by itself, none as a remainder. */
+/* The energy audit: it computes each term, none as a remainder. */
 #ifndef PERCUSS_IMPACT_ENERGY_H
 #define PERCUSS_IMPACT_ENERGY_H
 

@@ -10,13 +10,13 @@
 #include "impact/flight_root.h"
 
 enum {
-    /* Levels by which the first interval is tried longer than the shortest, one after another that
-     * was no longer than tried, and one after any other: of what was measured on the benchmark's
-     * beam, 0 to 4, the least work. */
+    /* Levels by which the first interval is tried longer than the shortest, the next after one as
+     * long as tried, and the next after any other: of 0 to 4, the least work on the benchmark's
+     * beam. */
     FIRST_TRY = 3,
     AFTER_SUCCESS = 3,
     AFTER_REFUSAL = 1,
-    /* by which any may be longer: see FLIGHT_TURN_ANGLE */
+    /* most levels longer: see FLIGHT_TURN_ANGLE */
     LONGEST_TRY = 20,
     /* intervals between two looks at the decayed amplitudes */
     REFRESH = 8
@@ -37,7 +37,7 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
         return false;
     for (size_t g = 0; g < scene->groups; g++)
         flight->swing[g] = sqrt(1.0 - scene->group[g].set->most_damping);
-    /* the bounds of the modes at each contact that they are seen by */
+    /* the bounds of the modes at each contact that they move */
     for (size_t i = 0; i < pairs; i++) {
         const struct scene_group *group = &scene->group[i / scene->contacts];
         size_t room = group->stride / LANES + 1;
@@ -70,11 +70,11 @@ static void find_bounds(struct flight *flight, const struct scene *scene,
     }
 }
 
-/* What is known of the gap at a contact within an interval. */
+/* Bounds of the gap at a contact within an interval. */
 struct outlook {
-    double derivative[SCAN_TERMS]; /* of the rigid gap and of the modes that are followed */
-    double fast;                   /* what the others can take off */
-    double rest;                   /* what the series' remainder can, at the end */
+    double derivative[SCAN_TERMS]; /* of the rigid gap and of the modes in the series */
+    double fast;                   /* the other modes' amplitudes */
+    double rest;                   /* the series' remainder at the end */
 };
 
 /* The remainder of the series at h over the modes' bend: h^8/8!. */
@@ -85,8 +85,7 @@ static double remainder_share(double h)
     return h4 * h4 * (1.0 / 40320.0);
 }
 
-/* Follows the modes by their series whose remainder at h is no more than their amplitude, besides
- * those that are followed already. A mode's q = Re(A
+/* Adds to the series the modes with a remainder at h of at most their amplitude. A mode q = Re(A
  * e^(lambda t)) with |lambda| = omega has |q^(n)| <= |A| omega^n, and |A|^2 (1 - zeta^2) = q^2 +
  * v^2/omega^2 + 2 zeta q v/omega <= (1 + zeta) a^2. */
 static void look_closer(const struct flight *flight, const struct scene *scene,
@@ -123,9 +122,9 @@ static void look_closer(const struct flight *flight, const struct scene *scene,
     }
 }
 
-/* Whether the gap stays open for h: on t = s h the series is a polynomial p(s) whose Bernstein
- * coefficients bound it (see flight_root.c), and the remainder is at most that at h times s^8 <=
- * s^7, which belongs to the last coefficient. */
+/* Whether the gap stays open for h. With t = s h the series is a polynomial p(s), bounded by its
+ * Bernstein coefficients (see flight_root.c). The remainder is at most its value at h times s^8 <=
+ * s^7, which changes only the last coefficient. */
 static bool stays_open(const struct outlook *outlook, double h)
 {
     /* 1/n!, and 1/binomial(7, n) */
@@ -137,7 +136,7 @@ static bool stays_open(const struct outlook *outlook, double h)
     b[0] = outlook->derivative[0] - outlook->fast;
     if (b[0] < 0.0)
         return false;
-    /* the power series in s; at its end most of those that do not stay open are not */
+    /* the power series in s; most gaps that close are closed at its end */
     double power = h;
     double end = b[0];
 #pragma GCC unroll 8
@@ -164,8 +163,8 @@ static bool stays_open(const struct outlook *outlook, double h)
     return true;
 }
 
-/* The longest step of the levels from the first to the second on which contact c stays open; beyond
- * the second: none. */
+/* The level of the longest step, from levels[0] to levels[1], on which contact c stays open;
+ * levels[1] + 1: none. */
 static int open_level(struct flight *flight, const struct scene *scene, const struct motion *now,
                       size_t c, const int levels[2])
 {
@@ -215,16 +214,16 @@ static bool touches_now(const struct scene *scene, const struct motion *motion, 
     return false;
 }
 
-/* A search under way. */
+/* State of a search. */
 struct scan {
     struct flight *flight;
     const struct scene *scene;
-    const struct motion *start, *now; /* of the flight, of the interval */
+    const struct motion *start, *now; /* of flight, of interval */
     double allowed;
-    double end;             /* from the start: complete, or no longer allowed */
+    double end;             /* from the start: complete, or out of time */
     enum flight_end reason; /* which of the two */
     int floor;              /* level of the shortest interval */
-    int level;              /* of the one that was passed last */
+    int level;              /* of the last one passed */
     int longer;             /* levels by which the next may be longer */
 };
 
@@ -239,8 +238,8 @@ static void find_end(struct scan *scan)
     scan->end = fmin(complete, scan->allowed);
 }
 
-/* Looks for the next interval that stays open. Returns when a contact touches in it, from now;
- * INFINITY: none does. */
+/* Finds the next interval that stays open. Returns the time from now of a touch in it; INFINITY:
+ * none. */
 static double look_ahead(struct scan *scan, size_t *contact)
 {
     const struct scene *scene = scan->scene;
@@ -253,7 +252,7 @@ static double look_ahead(struct scan *scan, size_t *contact)
         levels[0] = open_level(scan->flight, scene, scan->now, c, levels);
         if (levels[0] <= scan->floor)
             continue;
-        /* the shortest ones are looked into */
+        /* the shortest are searched for it */
         levels[0] = scan->floor;
         if (flight_root_touch(scan->now, scene, c, step_length(scan->floor), &touch) &&
             touch < first) {
@@ -266,7 +265,7 @@ static double look_ahead(struct scan *scan, size_t *contact)
     return first;
 }
 
-/* The probe's rigid part, `time` after another motion or itself. */
+/* Sets the probe's rigid part `time` after a motion or itself. */
 static void move_gaps(struct motion *probe, const struct scene *scene, const struct motion *from,
                       double time)
 {
@@ -278,7 +277,7 @@ static void move_gaps(struct motion *probe, const struct scene *scene, const str
     }
 }
 
-/* To the end of the interval, along exact motion. False: out of memory. */
+/* Moves the probe to the interval's end, exactly. False: out of memory. */
 static bool pass(struct scan *scan)
 {
     struct motion *probe = &scan->flight->probe;
@@ -295,7 +294,7 @@ static bool pass(struct scan *scan)
     return true;
 }
 
-/* The flight ends `left` from now, `time` from its start: the probe goes there. */
+/* Ends the flight with the probe `left` from now, `time` from its start. */
 static enum flight_end land(struct scan *scan, enum flight_end end, double time, double left)
 {
     struct motion *probe = &scan->flight->probe;
@@ -308,7 +307,7 @@ static enum flight_end land(struct scan *scan, enum flight_end end, double time,
     return end;
 }
 
-/* Goes on from interval to interval. */
+/* Searches interval by interval. */
 static enum flight_end follow(struct scan *scan, unsigned long intervals, double *time,
                               size_t *contact)
 {
@@ -330,7 +329,7 @@ static enum flight_end follow(struct scan *scan, unsigned long intervals, double
         }
         if (left <= step_length(scan->level))
             return land(scan, scan->reason, *time, left);
-        /* past it, along exact motion; what does not move the time is its rounding */
+        /* past it; an interval that does not advance the time is rounding */
         double before = scan->now->time;
         if (!pass(scan))
             return FLIGHT_MEMORY;

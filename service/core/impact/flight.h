@@ -1,11 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Between contacts: the next touch, or the proof that vibration can cause none.
- *
- * The flight is scanned by bounds, not by samples: an interval is passed only when the least that a
- * power series of the slow modes can be on it, less its remainder and all that the fast modes can
- * add, stays open, so that no double root is missed. */
+/* Finds the next touch between contacts, or proves that vibration can cause none. The flight is
+ * scanned by bounds, not by samples: an interval is passed only if the gap's lower bound stays open
+ * on it, so that no double root is missed. This bound is the least value of a power series of the
+ * slow modes, less its remainder and the amplitudes of the fast modes. */
 #ifndef PERCUSS_IMPACT_FLIGHT_H
 #define PERCUSS_IMPACT_FLIGHT_H
 
@@ -17,19 +16,19 @@ enum flight_end {
     FLIGHT_COMPLETE, /* from `time` on the rigid gaps exceed the vibration for good */
     FLIGHT_TIMEOUT,  /* neither within the time allowed */
     FLIGHT_LIMIT,    /* too many intervals, or stopped by the pace */
-    FLIGHT_MEMORY    /* it ran out */
+    FLIGHT_MEMORY    /* out of memory */
 };
 
 struct flight {
-    struct motion probe;     /* of a flight that was found: the motion at its end */
+    struct motion probe;     /* the motion at the end of a flight found */
     double **reach, **bend;  /* [group][contact]: see flight_kernel_bounds */
     double *bound;           /* [contact]: sum of participation times amplitude */
-    double *unknown;         /* [contact]: closing rates that may be none, m/s; as created: 0 */
-    size_t *followed;        /* [group]: lanes of modes that are, in the interval looked at */
-    double *swing;           /* [group]: sqrt(1 - the largest damping) */
+    double *unknown;         /* [contact]: uncertainty of closing rates, m/s; created: 0 */
+    size_t *followed;        /* [group]: lanes of modes in the interval's series */
+    double *swing;           /* [group]: sqrt(1 - largest damping ratio) */
     bool damped;             /* amplitudes decay */
     unsigned long intervals; /* examined, since creation */
-    struct pace *pace;       /* asked whether to go on; NULL (as created): nobody */
+    struct pace *pace;       /* asked whether to go on; NULL (as created): none */
     double cost;             /* of an interval, in the pace's work */
 };
 

@@ -21,13 +21,13 @@ VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double
     for (size_t j = 0; j < count; j++) {
         size_t k = j * LANES;
         lanes w = AT(modes->omega, k);
-        /* the smallest number leaves every frequency what it is but the zeros that fill up */
+        /* the smallest number changes no frequency but the padding's zeros */
         lanes x = AT(modes->phi, k) * AT(modes->q, k);
         lanes y = AT(modes->phi, k) * AT(modes->v, k) / (w + DBL_MIN);
         lanes a = x * x + y * y;
         for (int i = 0; i < LANES; i++)
             a[i] = sqrt(a[i]);
-        /* times the SCAN_TERMS-th power */
+        /* times omega^SCAN_TERMS */
         lanes w2 = w * w;
         lanes w4 = w2 * w2;
         lanes bent = a * (w4 * w4);
@@ -40,10 +40,10 @@ VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double
         reach[j - 1] += reach[j];
 }
 
-/* Powers of which q and v have sums at once: as many as the registers of the baseline hold. */
+/* Powers of q and v that are summed at once: the baseline's registers hold no more. */
 enum { AT_ONCE = 5 };
 
-/* By the equation of motion, from phi q and phi v times the scale on. */
+/* Sums by the equation of motion, from phi q and phi v times the scale. */
 static inline void add_damped(const struct flight_modes *modes, double scale, int terms,
                               double *sums)
 {
@@ -120,10 +120,10 @@ void flight_kernel_terms(const struct flight_modes *modes, double length, double
 static const double QUARTER[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
 const double FLIGHT_TURN_ANGLE = 0x1p20;
 
-/* Adding it rounds to a whole number, which is then in the lowest bits. */
+/* Adding this rounds to a whole number in the lowest bits. */
 static const double ROUNDER = 0x1.8p52;
 
-/* Taylor's terms beyond the second, of sin and cos up to pi/4: the first left out is 2e-18. */
+/* Taylor's terms beyond the second, of sin and cos up to pi/4: the first omitted is 2e-18. */
 enum { CIRCLE_TERMS = 7 };
 static const double SINE[CIRCLE_TERMS] = {
     -1.0 / 6.0,        1.0 / 120.0,        -1.0 / 5040.0,         1.0 / 362880.0,
@@ -134,12 +134,12 @@ static const double COSINE[CIRCLE_TERMS] = {
 
 static inline void circle(const lanes *angle, lanes *sine, lanes *cosine)
 {
-    /* the nearest quarter turn and what is left */
+    /* the nearest quarter turn and the rest */
     lanes shifted = *angle * M_2_PI + ROUNDER;
     lanes turns = shifted - ROUNDER;
     lanes r = ((*angle - turns * QUARTER[0]) - turns * QUARTER[1]) - turns * QUARTER[2];
     bits quadrant = (bits)shifted;
-    /* sine and cosine of that */
+    /* its sine and cosine */
     lanes z = r * r;
     lanes s = z * SINE[CIRCLE_TERMS - 1];
     lanes c = z * COSINE[CIRCLE_TERMS - 1];
@@ -159,9 +159,9 @@ static inline void circle(const lanes *angle, lanes *sine, lanes *cosine)
 
 /* ln 2 in two parts, the first of 32 bits. */
 static const double LOG_2[2] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
-/* Nothing is left of a mode that has decayed so far. */
+/* A mode with this decay exponent is 0. */
 static const double DECAYED = 700.0;
-/* Taylor's terms beyond the first of exp up to ln(2)/2: the first left out is 4e-18. */
+/* Taylor's terms beyond the first of exp up to ln(2)/2: the first omitted is 4e-18. */
 enum { DECAY_TERMS = 13 };
 static const double DECAY[DECAY_TERMS] = {1.0,
                                           1.0 / 2.0,
@@ -179,19 +179,19 @@ static const double DECAY[DECAY_TERMS] = {1.0,
 
 static const lanes UNIT = {1.0, 1.0, 1.0, 1.0};
 
-/* exp(-x), x >= 0, and what it lacks to one. */
+/* exp(-x) and 1 - exp(-x), x >= 0. */
 static inline void decay(const lanes *x, lanes *left, lanes *lost)
 {
     bits beyond = (bits)(*x > DECAYED);
     lanes y = -(lanes)((bits)*x & ~beyond);
-    /* the nearest power of two and what is left */
+    /* the nearest power of two and the rest */
     lanes shifted = y * M_LOG2E + ROUNDER;
     lanes power = shifted - ROUNDER;
     lanes r = (y - power * LOG_2[0]) - power * LOG_2[1];
     lanes sum = r * DECAY[DECAY_TERMS - 1];
     for (int n = DECAY_TERMS - 2; n >= 0; n--)
         sum = (sum + DECAY[n]) * r;
-    /* times the power: 2^k and its product with what differs from one */
+    /* times the power 2^k; the sum is exp(r) - 1 */
     lanes one = (lanes)(((bits)UNIT + ((bits)shifted << 52)) & ~beyond);
     *left = one + one * sum;
     *lost = (1.0 - one) - one * sum;
@@ -224,7 +224,7 @@ static inline void make_turn(const struct flight_modes *modes, size_t k, double 
     lanes c;
     lanes lag = {0};
     if (modes->damping) {
-        /* slower, and smaller */
+        /* lower frequency, decay */
         lanes zeta = AT(modes->damping, k);
         lanes slower;
         lanes left;

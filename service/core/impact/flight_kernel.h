@@ -17,7 +17,7 @@ struct flight_modes {
     const double *omega, *phi, *q, *v;
 };
 
-/* Those of a group. */
+/* From a group. */
 static inline struct flight_modes flight_modes_of(const struct scene_group *group, size_t contact,
                                                   const double *q, const double *v)
 {
@@ -32,10 +32,10 @@ static inline struct flight_modes flight_modes_of(const struct scene_group *grou
 
 enum {
     SCAN_TERMS = 8, /* of the power series by which an interval is proved open */
-    ROOT_TERMS = 20 /* of that on which a touch is found */
+    ROOT_TERMS = 20 /* of that which gives a touch */
 };
 
-/* What the modes can do at the contact from now on: reach[j] is the sum of |phi| a over all lanes
+/* Bounds of the modes at the contact from now on: reach[j] is the sum of |phi| a over all lanes
  * from the j-th on, bend[j] that of |phi| a omega^SCAN_TERMS over those before it, for 0 <= j <=
  * length/LANES; a = sqrt(q^2 + v^2/omega^2). */
 void flight_kernel_bounds(const struct flight_modes *modes, double *reach, double *bend);
@@ -43,7 +43,7 @@ void flight_kernel_bounds(const struct flight_modes *modes, double *reach, doubl
 /* sums[n] += sum_k phi_k d^n q_k/dt^n in free motion, by q'' = -2 damping omega q' - omega^2 q. */
 void flight_kernel_derivatives(const struct flight_modes *modes, double sums[SCAN_TERMS]);
 
-/* The same times length^n, for the series that the touch is found on. */
+/* The same times length^n, for the series that gives the touch. */
 void flight_kernel_terms(const struct flight_modes *modes, double length, double sums[ROOT_TERMS]);
 
 /* Free motion over `time` >= 0, from q and v of the modes (phi is not used) into others or the
@@ -58,11 +58,11 @@ void flight_kernel_table(const struct flight_modes *modes, double time, double *
 void flight_kernel_step(const double *table, const struct flight_modes *modes, double *q,
                         double *v);
 
-/* Energy that the dampers of damped modes take in that time, from q and v. */
+/* Energy that damped modes lose to damping in that time, from q and v. */
 double flight_kernel_loss(const struct flight_modes *modes, double time);
 
-/* The map of a set's free motion over the step of a level (see flight_kernel_step), made when first
- * asked for; belongs to the set. NULL: out of memory. */
+/* The map of a set's free motion over the step of a level (see flight_kernel_step), made on first
+ * use; belongs to the set. NULL: out of memory. */
 const double *flight_table(struct oscillators *set, int level);
 
 #endif

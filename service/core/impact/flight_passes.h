@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Derivatives of undamped modes seen by a contact, and free motion by a table (flight_kernel.h),
- * for vectors of WIDTH lanes: flight_kernel.c includes this once for each width. Lanes have sums of
- * their own and are added in the order of simd.h, so that every width gives the same bits. */
+/* Derivatives of undamped modes at a contact, and free motion by a table (flight_kernel.h), for
+ * vectors of WIDTH lanes: flight_kernel.c includes this once for each width. Each lane has its own
+ * sums, added in the order of simd.h, so that every width gives the same bits. */
 
 #define PARTS          (LANES / WIDTH)
 #define PART(array, k) (*(const VECTOR *)((array) + (k)))
@@ -61,7 +61,7 @@ PASS_UNIT static void PASS(terms)(const struct flight_modes *modes, double lengt
     PASS(add_powers)(modes, length, PARTS_OF[1], sums);
 }
 
-/* By a table of struct turn. */
+/* Motion by struct turn. */
 PASS_UNIT static void PASS(step)(const double *table, const struct flight_modes *modes, double *q,
                                  double *v)
 {
