@@ -16,9 +16,9 @@ enum {
     FIRST_TRY = 3,
     AFTER_SUCCESS = 3,
     AFTER_REFUSAL = 1,
-    /* most levels longer: see FLIGHT_TURN_ANGLE */
+    /* limit of these for any: see FLIGHT_TURN_ANGLE */
     LONGEST_TRY = 20,
-    /* intervals between two looks at the decayed amplitudes */
+    /* intervals between updates of decayed amplitudes */
     REFRESH = 8
 };
 

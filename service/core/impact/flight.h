@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Finds the next touch between contacts, or proves that vibration can cause none. The flight is
- * scanned by bounds, not by samples: an interval is passed only if the gap's lower bound stays open
- * on it, so that no double root is missed. This bound is the least value of a power series of the
- * slow modes, less its remainder and the amplitudes of the fast modes. */
+/* Finds the next touch after a contact, or proves that vibration can cause none. Bounds, not
+ * samples, scan the flight: an interval is passed only if a lower bound of the gap stays open on
+ * it, so that no double root is missed. It is a power series of the slow modes, less its remainder
+ * and the fast modes' amplitudes. */
 #ifndef PERCUSS_IMPACT_FLIGHT_H
 #define PERCUSS_IMPACT_FLIGHT_H
 

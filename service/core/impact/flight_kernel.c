@@ -159,7 +159,7 @@ static inline void circle(const lanes *angle, lanes *sine, lanes *cosine)
 
 /* ln 2 in two parts, the first of 32 bits. */
 static const double LOG_2[2] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
-/* A mode with this decay exponent is 0. */
+/* Beyond this decay exponent a mode is 0. */
 static const double DECAYED = 700.0;
 /* Taylor's terms beyond the first of exp up to ln(2)/2: the first omitted is 4e-18. */
 enum { DECAY_TERMS = 13 };

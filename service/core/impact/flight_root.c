@@ -17,7 +17,7 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = INFINITY;
     if (acceleration >= 0.0) {
         double discriminant = rate * rate - 2.0 * acceleration * excess;
-        /* opens, or turns before it falls below; otherwise at the later root */
+        /* opens, or turns before it closes; otherwise at the later root */
         if (excess >= 0.0 && (rate >= 0.0 || (acceleration > 0.0 && discriminant < 0.0)))
             *first = 0.0;
         else if (acceleration > 0.0)
@@ -26,7 +26,7 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
             *first = -excess / rate;
         return;
     }
-    /* pressing: only on the way up, and only if the top of the way exceeds it */
+    /* pressing: only while x rises, and if its maximum is >= 0 */
     double discriminant = rate * rate - 2.0 * acceleration * excess;
     if (rate <= 0.0 || discriminant < 0.0)
         return;
@@ -96,7 +96,7 @@ static struct piece make_piece(const double term[ROOT_TERMS])
     return piece;
 }
 
-/* De Casteljau's rule: the piece becomes its left half, what it returns is the right one. */
+/* De Casteljau's rule: the piece becomes its left half, the right one is returned. */
 static struct piece halve(struct piece *piece)
 {
     struct piece right = {0.5 * (piece->low + piece->high), piece->high, {0.0}};
@@ -158,9 +158,9 @@ static bool find_rise(struct piece *piece, int halvings)
     return find_rise(piece, halvings - 1);
 }
 
-/* Newton's method, kept safe by halving, needs less. */
+/* Newton's method with bisection needs fewer. */
 enum { MAX_ROUNDS = 100 };
-/* Of an instant: half a bit, to which Newton's method comes. */
+/* Relative, of an instant: half a bit, as Newton's method has. */
 static const double ROUNDING = 1e-16;
 
 /* Where the control polygon of a piece, the coefficients at equal distances, rises through zero. */
@@ -187,8 +187,8 @@ static double value_at(const double term[ROOT_TERMS], double s, double *rate)
     return value;
 }
 
-/* The root of the series in a piece where it rises through zero once: starts from the polygon's,
- * bisection kept safe, Newton where it stays inside. */
+/* The root of the series in a piece where it rises through zero once: Newton's method from the
+ * polygon's root, bisection where that leaves the bounds. */
 static double rising_root(const double term[ROOT_TERMS], const struct piece *piece)
 {
     double low = piece->low;
@@ -196,15 +196,15 @@ static double rising_root(const double term[ROOT_TERMS], const struct piece *pie
     double s = polygon_root(piece);
     double before = 0.0;
     for (int i = 0; i < MAX_ROUNDS; i++) {
-        /* the approach there tightens the bounds */
+        /* the sign tightens the bounds */
         double rate;
         double d = value_at(term, s, &rate);
         if (d > 0.0)
             high = s;
         else
             low = s;
-        /* Newton's method while it stays between them: its steps shrink like their squares, so that
-         * the next one is this one times (this/before)^2 */
+        /* Newton's method while it stays between them: it converges quadratically, so that the next
+         * step is this one times (this/before)^2 */
         double next = rate > 0.0 ? s - d / rate : low;
         double step = fabs(next - s);
         bool inside = next > low && next < high;

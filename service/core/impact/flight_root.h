@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Exact instants on a flight. */
+/* Finds instants on a flight. */
 #ifndef PERCUSS_IMPACT_FLIGHT_ROOT_H
 #define PERCUSS_IMPACT_FLIGHT_ROOT_H
 
@@ -13,11 +13,11 @@
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last);
 
-/* The closing rate of a gap as flight_root_exceeds is to take it: 0 where it is within what the
- * solution leaves `unknown` of it and leaves an excess open for all of the time `left`. */
+/* The closing rate of a gap for flight_root_exceeds: 0 where it is within its uncertainty `unknown`
+ * and leaves an excess open for all of the time `left`. */
 double flight_root_rate(double excess, double rate, double unknown, double left);
 
-/* The longest interval that flight_root_touch may look into, s; INFINITY without modes. */
+/* The longest interval for flight_root_touch, s; INFINITY without modes. */
 double flight_root_longest(const struct scene *scene);
 
 /* First touch (approach rising through zero) of a contact within `length` of free motion from

@@ -12,7 +12,7 @@ struct force_log force_log_make(struct arena *arena, size_t contacts)
     return (struct force_log){.arena = arena, .contacts = contacts, .complete = true};
 }
 
-/* The arena takes nothing back: doubling wastes as much as is in use. */
+/* The arena frees nothing: doubling wastes as much as is in use. */
 static bool grow(struct force_log *log)
 {
     size_t room = log->room ? 2 * log->room : FIRST_ROOM;
@@ -41,7 +41,7 @@ void force_log_add(struct force_log *log, double start, int level, double (*cons
     step.force = log->values;
     step.indentation = log->values + n;
     log->values += 2 * n;
-    for (size_t c = 0; c < n; c++) { /* of known size each: no calls */
+    for (size_t c = 0; c < n; c++) { /* constant sizes: no calls */
         memcpy(step.force[c], force[c], sizeof *force);
         memcpy(step.indentation[c], indentation[c], sizeof *indentation);
     }

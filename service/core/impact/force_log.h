@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The contact forces of a solution, step by step: all that is needed to go through the motion
- * again, since the modes follow the forces exactly. */
+/* Records the contact forces of a solution step by step. They suffice to repeat the motion, since
+ * the modes follow them exactly. */
 #ifndef PERCUSS_IMPACT_FORCE_LOG_H
 #define PERCUSS_IMPACT_FORCE_LOG_H
 
@@ -21,19 +21,19 @@ struct force_step {
 };
 
 struct force_log {
-    struct arena *arena; /* everything lives here */
+    struct arena *arena; /* holds everything */
     size_t contacts;
     struct force_step *steps;
-    double (*values)[NODES]; /* for the forces and indentations of those to come */
+    double (*values)[NODES]; /* room for forces and indentations to come */
     size_t count, room;
-    size_t most;   /* steps that are taken down; 0: any number */
-    bool complete; /* false: memory ran out, or there were more */
+    size_t most;   /* most recorded steps; 0: any number */
+    bool complete; /* false: out of memory, or more steps */
 };
 
 /* An empty log of so many contacts. */
 struct force_log force_log_make(struct arena *arena, size_t contacts);
 
-/* Copies what a step holds. */
+/* Copies a step's values. */
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],
                    double (*const indentation)[NODES]);
 

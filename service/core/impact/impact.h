@@ -12,16 +12,16 @@
 #include "impact/result.h"
 #include "impact/track.h"
 
-/* How careful a solution must be for its accuracy. */
+/* Care that a solution needs for its accuracy. */
 enum impact_care {
-    /* later sub-impacts amplify what steps leave of the first ones */
+    /* later sub-impacts amplify the step errors of the first ones */
     IMPACT_CARE_SEQUENCE,
-    /* a sequence that another one is compared with: its contacts begin and end by short steps, not
-     * by projected moments (step_ends.h), so that the two do not miss the same sub-impact */
+    /* a sequence for comparison with another: contacts begin and end by short steps, not by
+     * projected moments (step_ends.h), so that the two do not miss the same sub-impact */
     IMPACT_CARE_BESIDE,
-    /* one blow, behind which nothing is amplified */
+    /* one impact: nothing later is amplified */
     IMPACT_CARE_SINGLE,
-    /* only says how far another solution may be off */
+    /* only estimates another solution's error */
     IMPACT_CARE_ROUGH,
     IMPACT_CARES
 };
@@ -31,7 +31,7 @@ struct impact_settings {
     double horizon;  /* s from the stated instant */
     double max_work; /* contact steps and flight intervals, times modes + 8 contacts (contacts that
                         each feels)^2 + 2 contacts^2 + 6 contacts */
-    struct force_log *log; /* takes the contact forces down; NULL: nobody asks. Only impact_modal */
+    struct force_log *log; /* records the contact forces; NULL: none. Only impact_modal */
     struct pace *pace;     /* NULL: nothing stops it; otherwise the status may be PERCUSS_TIMEOUT */
     enum impact_care care; /* of impact_modal's steps */
 };
@@ -40,12 +40,12 @@ struct impact_settings {
 struct impact_outcome {
     enum percuss_end_reason end_reason;
     double window;            /* s: the end of the fast scale */
-    bool always_overlapped;   /* no touch behind an overlap: nothing was solved */
-    bool beyond_horizon;      /* ... within the horizon, further back nobody looked */
-    bool too_stiff;           /* a law became stiffer than its series compliance bears: cut off */
+    bool always_overlapped;   /* no touch before an overlap: nothing was solved */
+    bool beyond_horizon;      /* ... within the horizon, which ended the search */
+    bool too_stiff;           /* a law became too stiff for its series compliance: cut off */
     double time_shift;        /* the touch before (< 0) or after the stated instant, s */
     struct track *tracks;     /* [contact] */
-    struct contact_law *laws; /* [contact], with what they remember at the end */
+    struct contact_law *laws; /* [contact], with their final histories */
     double plastic;           /* dissipated by yielding, J */
     struct impact_energy energy;
     double *vibration;         /* [body], J, at the end */
@@ -65,7 +65,7 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene);
 
 /* Solves by exact modal propagation. `arena` holds scratch memory until its next reset. PERCUSS_OK,
  * PERCUSS_INTERNAL when memory runs out, or PERCUSS_TIMEOUT where settings->pace stopped it: the
- * outcome then says nothing. */
+ * outcome is then undefined. */
 enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
@@ -81,7 +81,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
 enum percuss_status impact_cvode(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
-/* How many steps and intervals the work allowed is on a scene. */
+/* Number of steps and intervals of the allowed work on a scene. */
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings);
 
 /* The work that a solution took, in the same unit. */

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* A power law is solved in one round, one with joints in some more, and a thousandth is enough for
- * a scale. The first indentation may be anything. */
+/* A power law needs one round, one with joints some more; a thousandth is enough for a scale. The
+ * first indentation is arbitrary. */
 enum { MAX_ROUNDS = 20 };
 static const double SCALE_ACCURACY = 1e-3;
 static const double FIRST_INDENTATION = 1e-6; /* m */
@@ -14,10 +14,10 @@ static const double FIRST_INDENTATION = 1e-6; /* m */
 /* Work of a force k d^(3/2) over its product with d. */
 static const double HERTZ_WORK = 0.4;
 
-/* A contact that opens without speed has scales too, with squares that are no 0; m/s. */
+/* Least speed of a contact's scales, so that its square is no 0; m/s. */
 static const double LEAST_SPEED = 1e-150;
 
-/* The felt mass depends on the duration and the other way round: so many rounds settle it. */
+/* The felt mass and the duration depend on each other: so many rounds suffice. */
 enum { MASS_ROUNDS = 3 };
 
 /* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than
@@ -34,8 +34,7 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
     return sum;
 }
 
-/* A law's energy is an integral where it yields; as a scale, that of a force like d^(3/2) will do.
- */
+/* Energy stored by a law; where it yields, that of a force like d^(3/2) instead of the integral. */
 static double stored_about(const struct contact_law *law, double d, double force)
 {
     return law->operations->curve ? HERTZ_WORK * force * d : law->operations->stored(law, d);
@@ -80,7 +79,7 @@ struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, d
     return scale;
 }
 
-/* What a step costs, in modes: the modes themselves, and the equations of the contacts. */
+/* Whether contacts a and b are coupled. */
 static bool feels(const struct scene *scene, size_t a, size_t b)
 {
     size_t at = a * scene->contacts + b;
@@ -92,8 +91,8 @@ static bool feels(const struct scene *scene, size_t a, size_t b)
     return false;
 }
 
-/* For contacts that have to be solved for at once, whose elimination skips what is zero: in a row
- * of spheres each feels two others, on a beam all of them. One by one they cost far less. */
+/* In modes: those of the scene, and the contacts' equations solved at once with zeros skipped: in a
+ * row of spheres each feels two others, on a beam all. One by one they cost far less. */
 double step_cost(const struct scene *scene)
 {
     double n = (double)scene->contacts;

@@ -50,7 +50,7 @@ VECTOR_CLONES void kernel_push(const struct step_table *table, size_t length, co
     }
 }
 
-/* Two nodes together: five points of a step with four nodes each keep ten sums in registers. */
+/* Pairs of nodes: five points of a step with four nodes each keep ten sums in registers. */
 #define HALF(array, k) (*(const half *)((array) + (k)))
 
 VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length,
@@ -96,7 +96,7 @@ VECTOR_CLONES double kernel_loss(const struct step_table *table, size_t length,
     return TOTAL(sum);
 }
 
-/* The forces of the pairs of nodes: what is odd and what is even around the middle. */
+/* The forces of the pairs of nodes: their odd and even parts about the middle. */
 struct pairs {
     double odd[2], even[2];
 };

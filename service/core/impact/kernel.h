@@ -20,7 +20,7 @@ void kernel_nodes(const struct step_table *table, size_t length, const double *p
 void kernel_advance(const struct step_table *table, size_t length, const double *q, const double *v,
                     double *q_end, double *v_end);
 
-/* Adds what the forces at the nodes through `phi` do until the end of the step. */
+/* Adds the effect of the nodal forces through `phi` at the end of the step. */
 void kernel_push(const struct step_table *table, size_t length, const double *phi,
                  const double force[NODES], double *q_end, double *v_end);
 
@@ -38,18 +38,18 @@ struct kernel_load {
     const double *force; /* [NODES] */
 };
 
-/* What dampers take on the step: sum_k of the table's quadratic form of (q_k, v_k, f_1..f_4), f_j
- * the sum over the loads of phi_k force_j. Damped tables only. */
+/* Energy lost to damping on the step: sum_k of the table's quadratic form of (q_k, v_k, f_1..f_4),
+ * f_j the sum over the loads of phi_k force_j. Damped tables only. */
 double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
                    const struct kernel_load *loads, size_t count);
 
-/* The same of undamped modes, whose state is that of the middle of the step (enum middle_term).
- * Turns a state on, or back for way = -1. */
+/* From here on: undamped modes with the state at the middle of the step (enum middle_term). Turns a
+ * state on, or back for way = -1. */
 void kernel_turn(const double *middle, enum middle_term turn, double way, size_t length,
                  const double *const state[2], double *const to[2]);
 
-/* Adds what the forces at the nodes through `phi` do: the state is that without them before the
- * middle and that with all of them behind it. */
+/* Adds the effect of the nodal forces through `phi`. Before, the state is free motion from the
+ * step's start; after, free motion leads from it to the end. */
 void kernel_kick(const double *middle, size_t length, const double *phi, const double force[NODES],
                  double *const state[2]);
 
@@ -57,7 +57,7 @@ void kernel_kick(const double *middle, size_t length, const double *phi, const d
 void kernel_swing(const double *middle, size_t length, const double *phi,
                   const double *const state[2], double sums[STEP_POINTS]);
 
-/* From one step to the next, at once: kernel_kick and the turn by the tables of the one,
+/* From one step to the next in one pass: kernel_kick and the turn by the tables of the one,
  * kernel_swing by those of the next. */
 struct kernel_carry {
     const double *from, *next;
