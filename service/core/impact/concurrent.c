@@ -25,13 +25,13 @@ struct concurrent {
     struct march march;
     unsigned least_steps; /* of a contact */
     struct region *region;
-    struct motion end; /* of the step under way */
+    struct motion end; /* of the current step */
     struct impact_scale scale;
     int level;
     double response;         /* of the approach at a step's end to the force there, m/N, < 0 */
     double depth, earlier;   /* now and a step before, from the bottom of the dent, m */
     double force, stiffness; /* now */
-    double peak;             /* N, of the sub-impact under way */
+    double peak;             /* N, of the current sub-impact */
     double bottom;           /* of the dent, from the virgin surface, m */
     double work;             /* of the force on the region, J */
 };

@@ -10,7 +10,7 @@
 #include "impact/scene.h"
 #include "impact/step_table.h"
 
-/* Modes seen by one contact. */
+/* Modes at one contact. */
 struct flight_modes {
     size_t length;         /* whole lanes */
     const double *damping; /* ratios; NULL: undamped */
