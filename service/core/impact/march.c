@@ -38,8 +38,8 @@ void march_close(struct march *march, size_t contact, double time, double gap_ra
     track_close(&march->outcome->tracks[contact], &march->scene.laws[contact], time, gap_rate);
 }
 
-/* Of the impulses, by the sums along their steps, and the coarsest accuracy that is taken for one;
- * of the stated rates, which are differences of bodies' speeds. */
+/* Relative errors: of the impulses, at least the rounding of sums over steps, and at most the
+ * coarsest accuracy; of the stated rates, which are differences of bodies' speeds. */
 static const double ROUNDING_OF_STEPS = 1e-11;
 static const double COARSEST_STEPS = 1e-5;
 static const double ROUNDING_OF_SPEEDS = 8.0 * DBL_EPSILON;
@@ -88,7 +88,7 @@ static enum percuss_end_reason no_memory(struct march *march)
     return march_fail(march, pace_fault(march->fault, PERCUSS_INTERNAL));
 }
 
-/* Where bodies overlap at the stated instant, back to their touch. NONE: go on. */
+/* Moves bodies that overlap at the stated instant back to their touch. NONE: go on. */
 static enum percuss_end_reason find_start(struct march *march, struct arena *arena)
 {
     struct impact_outcome *outcome = march->outcome;
@@ -121,7 +121,7 @@ static enum percuss_end_reason fly(struct march *march, size_t *contact)
         return no_memory(march);
     if (end == FLIGHT_LIMIT || march->used > march->most)
         return PERCUSS_END_LIMIT;
-    /* what damping takes on the way, and the motion at its end */
+    /* the energy that damping takes, and the motion at the end */
     march->damping += motion_free_loss(motion, &march->scene, time);
     motion_copy(motion, &march->flight.probe, &march->scene);
     if (end == FLIGHT_TIMEOUT)
@@ -139,7 +139,7 @@ static double first_touch(const struct march *march)
     return isfinite(first) ? first : 0.0;
 }
 
-/* The window ends: the books are closed and the energy is audited. */
+/* Closes the books at the end of the window and audits the energy. */
 static enum percuss_status finish(struct march *march, struct arena *arena)
 {
     struct impact_outcome *outcome = march->outcome;
@@ -181,14 +181,14 @@ enum percuss_status march_run(struct march *march, const struct march_method *me
     return finish(march, arena);
 }
 
-/* Most touches that are gone back to, one after the other. */
+/* Most touches to which a motion is moved back, one after the other. */
 enum { MOST_TOUCHES = 64 };
 
-/* What rounding leaves of a touch that two contacts share, over the deepest overlap: as energy,
- * with its power 5/2, it is 1e-15 of the whole. */
+/* Overlap by rounding at a touch that two contacts share, over the deepest overlap: its energy, of
+ * the power 5/2, is 1e-15 of the whole. */
 static const double SHARED_TOUCH = 1e-6;
 
-/* The nearer root behind us of the rigid approach d + rate t - a t^2/2. */
+/* The latest root t < 0 of the rigid approach d + rate t - a t^2/2. */
 static enum rewind_end rigid_root(double d, double rate, double a, double *time)
 {
     double discriminant = rate * rate + 2.0 * a * d;
@@ -207,9 +207,9 @@ static bool is_still(const struct motion *motion, const struct scene *scene, siz
     return true;
 }
 
-/* What was overlap, seen backward, is a gap seen forward: D(s) = -d(-s) is the approach of a flight
- * with the gap -g(-s) and the coordinates -q(-s), whose rates are g' and v and whose acceleration
- * is -a. Nothing is damped on the way back, see motion_rewind. */
+/* The overlap backward in time is the gap of a flight forward in time: D(s) = -d(-s) is the
+ * approach for the gap -g(-s) and the coordinates -q(-s), with the rates g' and v and the
+ * acceleration -a. The way back has no damping, see motion_rewind. */
 struct mirror {
     struct scene scene;
     struct motion motion;
@@ -264,12 +264,12 @@ static enum rewind_end find_ringing(struct rewind *rewind, const struct scene *s
     flight.cost = step_cost(scene);
     enum flight_end end = flight_find(&flight, &mirror.scene, &mirror.motion, rewind->longest,
                                       rewind->intervals, time, &only);
-    /* what that took */
+    /* the intervals that it used */
     rewind->intervals -=
         flight.intervals < rewind->intervals ? flight.intervals : rewind->intervals;
     if (end == FLIGHT_LIMIT || end == FLIGHT_MEMORY)
         return end == FLIGHT_LIMIT ? REWIND_LIMIT : REWIND_MEMORY;
-    /* the touch as an instant behind us */
+    /* the touch as an instant in the past */
     rewind->beyond = rewind->beyond || end == FLIGHT_TIMEOUT;
     *time = -*time;
     return end == FLIGHT_TOUCH ? REWIND_TOUCHED : REWIND_NEVER;
@@ -287,7 +287,7 @@ enum rewind_end rewind_find(struct rewind *rewind, const struct scene *scene,
 }
 
 /* The earliest of the last touches of the contacts that overlap by more than `allowed`; 0: none
- * does. `at` is left out and becomes its contact. */
+ * does. Contact *at is not looked at; *at becomes the contact of the touch. */
 static enum rewind_end find_touch(const struct scene *scene, struct rewind *rewind,
                                   const struct motion *motion, double allowed, size_t *at,
                                   double *earliest)
@@ -329,7 +329,7 @@ static double deepest_overlap(const struct scene *scene, const struct motion *mo
 enum rewind_end rewind_to_touch(struct rewind *rewind, const struct scene *scene,
                                 struct motion *motion, double *shift)
 {
-    /* where one contact touched another one may overlap, from a touch further back */
+    /* at one contact's touch another one may overlap, from an earlier touch */
     double allowed = SHARED_TOUCH * deepest_overlap(scene, motion);
     size_t at = scene->contacts;
     *shift = 0.0;

@@ -13,14 +13,14 @@
 #include "impact/motion.h"
 
 struct march {
-    const struct scene *stated; /* as asked */
+    const struct scene *stated; /* the problem's */
     struct scene scene;         /* the same with the outcome's laws, which change as they yield */
     struct impact_outcome *outcome; /* from impact_create; its motion is the present */
     double horizon;                 /* s from the stated instant */
     double accuracy;                /* relative, of the impulses; 0: to rounding */
     unsigned long most;             /* contact steps and flight intervals that are allowed */
-    struct pace *pace;              /* NULL: nobody waits */
-    struct fault *fault;            /* of what makes it fail; NULL: nobody reads it */
+    struct pace *pace;              /* NULL: no time limit */
+    struct fault *fault;            /* cause of a failure; NULL: not stored */
 
     enum percuss_status status; /* not OK: it has failed */
     unsigned long used;         /* of `most` */
@@ -34,16 +34,16 @@ struct march {
 /* A method of solving contacts. `state` is its own, of one march. */
 struct march_method {
     bool flies; /* passes flights too: its contact phase begins at once and ends the march */
-    /* From a touch of `contact` until every contact is open again (NONE), or what ends the march.
-     * Moves the outcome's motion, keeps its books by march_open and march_close, adds to `used`
-     * and `damping`. */
+    /* From a touch of `contact` until every contact is open again (NONE) or the march ends. Moves
+     * the outcome's motion, keeps its books by march_open and march_close, adds to `used` and
+     * `damping`. */
     enum percuss_end_reason (*contact_phase)(void *state, size_t contact);
     /* The march has ended, for outcome->end_reason: the last entries into the books of contacts
      * that are still closed, and their `indentation`. */
     void (*end)(void *state);
 };
 
-/* Prepares a march whose members down to `fault` are set (but for `scene`): the outcome has no
+/* Prepares a march. The members down to `fault` but for `scene` are set. The outcome has no
  * sub-impacts yet, its motion is that of the stated instant. `arena` holds all of it. False: out of
  * memory. */
 bool march_create(struct march *march, struct arena *arena);
@@ -58,31 +58,31 @@ enum percuss_status march_run(struct march *march, const struct march_method *me
 void march_open(struct march *march, size_t contact, double time, double gap_rate);
 void march_close(struct march *march, size_t contact, double time, double gap_rate);
 
-/* How fast a gap may be said to close that does not, m/s: by the errors of the impulses so far. */
+/* Error of a gap's rate by the errors of the impulses so far, m/s. */
 double march_unknown_rate(const struct march *march, size_t contact);
 
 /* Whether any contact is closed. */
 bool march_in_contact(const struct march *march);
 
-/* Why a march ends whose bodies part for good: acceleration that presses brings them together
- * again, on the slow scale. */
+/* End of a march after the last contact: HANDED_BACK to the slow scale where an acceleration will
+ * close a contact again, else SEPARATED. */
 enum percuss_end_reason march_parted(const struct march *march);
 
-/* The march has failed: INTERNAL without memory, or another status whose message is written.
+/* Marks the march as failed: INTERNAL without memory, or another status with its message written.
  * Returns an end of contact phases. */
 enum percuss_end_reason march_fail(struct march *march, enum percuss_status status);
 
 struct rewind {
     double longest;          /* s: how far back vibrating bodies are followed */
-    unsigned long intervals; /* that may still be looked at; what was is taken off */
+    unsigned long intervals; /* left for the search, which counts them down */
     struct arena *arena;     /* scratch memory until its next reset */
-    struct pace *pace;       /* NULL: nobody */
+    struct pace *pace;       /* NULL: no time limit */
     bool beyond;             /* result: vibrating bodies overlapped for all of `longest` */
 };
 
 enum rewind_end {
     REWIND_TOUCHED,
-    REWIND_NEVER, /* overlapped for all of the past, or of what was looked at: `beyond` */
+    REWIND_NEVER, /* overlapped for all of the past, or (`beyond`) of `longest` */
     REWIND_LIMIT, /* the intervals were spent, or the pace stopped the search */
     REWIND_MEMORY /* it ran out */
 };

@@ -26,7 +26,7 @@
         (q) = turned;                                                                              \
     } while (0)
 
-/* Part p of the lanes, at the middle of the step. */
+/* Adds part p of the lanes to the sums of the nodes' pairs, from the middle of the step. */
 #define SWING(at, p, pq, pv)                                                                       \
     do {                                                                                           \
         c0[p] += TERM(at, MIDDLE_COSINE) * (pq);                                                   \
@@ -38,7 +38,7 @@
 #define SWING_END(at, p, pq, pv)                                                                   \
     (end[p] += TERM(at, TURN_HALF) * (pq) + TERM(at, TURN_HALF + 1) * (pv))
 
-/* What the lanes' sums come to. */
+/* Adds up the sums of the lanes. */
 #define ADD_UP(sums)                                                                               \
     do {                                                                                           \
         half last = FOLD(end);                                                                     \

@@ -15,19 +15,22 @@
 #include "impact/step_ends.h"
 #include "impact/yielding.h"
 
-/* What the accuracy asked for means to the steps of the modal method. */
+/* ---- Limits of steps ---- */
+
+/* Limits of the modal method's steps for an accuracy. */
 struct step_limits {
     /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
      * contact's force. The impulse converges with the eighth power of the step, the coefficient
      * with the third, hence about accuracy^(3/8). */
     double roughness;
-    /* The step in which a contact ends may be this part of its duration (impact_scale.h): the
-     * impulse within it is about its 5/2 power, and its end lies somewhere between the nodes. */
+    /* Largest share of a contact's duration (impact_scale.h) for the step in which it ends: the
+     * impulse within it goes with about its 5/2 power, and the end lies between any two nodes. */
     double event_share;
-    /* The one in which it begins: the nodes begin with it, and its force like t^(3/2), which they
-     * follow to a hundredth of their largest. */
+    /* The same for the step in which it begins: the step begins with the contact, and its cubic
+     * follows a force like t^(3/2) to a hundredth of the largest. */
     double opening_share;
-    /* Both without and with projected ends (step_ends.h); event first. The latter 0: never. */
+    /* Both shares, event first, without and with projected ends (step_ends.h). `projected` 0: ends
+     * are never projected. */
     double plain[2], projected[2];
     /* See step_limits_stable. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
      * not; 0.02 closes it to 1e-11. */
@@ -37,24 +40,24 @@ struct step_limits {
 /* omega h up to which a step of four nodes resolves a mode. */
 static const double RESOLVED = 4.0;
 
-/* Factor of accuracy^(1/5), and what the coupling is at most, so that the audit closes for any
- * accuracy (see the header). */
+/* The coupling is COUPLING accuracy^(1/5) but at most CLOSEST, so that the audit closes for any
+ * accuracy (see step_limits). */
 static const double COUPLING = 3.2;
 static const double CLOSEST = 0.25;
 
-/* What a care makes of the accuracy. */
+/* Limits of steps for one level of care. */
 struct care_limits {
-    double roughness;      /* factor of accuracy^(2/5) */
-    double event, opening; /* of accuracy^(1/2) */
-    double roughest;       /* and what they come to at most: a force is a cubic to */
-    double longest_event, longest_opening; /* that, shares of a contact's duration */
+    double roughness;                      /* factor of accuracy^(2/5) */
+    double event, opening;                 /* of accuracy^(1/2) */
+    double roughest;                       /* their largest values: beyond these a force is */
+    double longest_event, longest_opening; /* no cubic; shares of a contact's duration */
 };
 
-/* With these the steps of a contact leave some 0.1 accuracy^0.8 in the restitution
- * (docs/lab/accuracy.md, error.restitution_time). Of a sequence's contact the steps between tell:
- * those that begin and end it may be twice as long before e changes as much. With the steps of a
- * single blow sequences would be met and wrong three times as often. Rough solutions of sequences
- * of three were within 3e-3 of careful ones. */
+/* With these the steps of a contact leave an error of some 0.1 accuracy^0.8 in the restitution
+ * (docs/lab/accuracy.md, error.restitution_time). In a sequence the steps inside a contact
+ * determine it: the first and last one may be twice as long before e changes as much. With the
+ * steps of a single impact three times as many sequences would be accepted but wrong. Rough
+ * solutions of sequences of three were within 3e-3 of careful ones. */
 static const struct care_limits cares[IMPACT_CARES] = {
     [IMPACT_CARE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
     [IMPACT_CARE_BESIDE] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},
@@ -62,16 +65,17 @@ static const struct care_limits cares[IMPACT_CARES] = {
     [IMPACT_CARE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
 };
 
-/* Of several contacts with a sequence's care, which open and close all the time: a step that misses
- * the beginning or the end of a force like t^(3/2) leaves little beside the others. Of 400 random
- * groups on beams and as many rows of spheres, at accuracies of 1e-4 to 1e-9, these leave as much
- * as a sequence's, by two thirds to four fifths of the steps. */
+/* For several contacts with a sequence's care, which open and close all the time: a step that
+ * misses the beginning or the end of a force like t^(3/2) adds little to the total error. On 400
+ * random groups on beams and as many rows of spheres, at accuracies of 1e-4 to 1e-9, these leave
+ * the error of a sequence's limits with two thirds to four fifths of the steps. */
 static const struct care_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
-/* Beside the answer a contact begins and ends with steps longer than the answer's projected ones
- * (below): with as long ones the two miss the same. */
+/* For a comparison solution: its first and last steps of a contact are longer than the projected
+ * ones (below), as with equal steps both solutions have the same error. */
 static const struct care_limits several_beside = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
 
-/* The largest force, on which all depends that flows, takes more care. */
+/* Whether a scene has several contacts and none yields: yielding depends on the largest force and
+ * needs more care. */
 static bool is_elastic_group(const struct scene *scene)
 {
     for (size_t c = 0; c < scene->contacts; c++)
@@ -98,12 +102,12 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
     };
 }
 
-/* The same where the ends are projected. What is left is most of all what the step after the first
- * one misses of a force that began before it, and goes with the 5/2 power of their share: 1e-8 of
- * the impulse of a sphere on a beam at an eighth. The restitution of sequences there comes half as
- * far from what it converges to as with the other ends, by two steps for three. Not those beside an
- * answer: with the same ends the two agree where both miss a sub-impact, and sequences of eight and
- * more were met and wrong. */
+/* The same where the ends are projected. Most of the remaining error is in the step after the first
+ * one, where the force began before the step. It goes with the 5/2 power of the share: 1e-8 of the
+ * impulse of a sphere on a beam at 1/8. The restitution of sequences there has half the error of
+ * plain ends, with two steps for three. Comparison solutions have no projected ends: with the same
+ * ends the two agree where both miss a sub-impact, and sequences of eight and more were accepted
+ * but wrong. */
 struct projected_ends {
     double end; /* factor of accuracy^(3/10) */
     double longest_event, longest_opening;
@@ -114,9 +118,9 @@ static const struct projected_ends projected[IMPACT_CARES] = {
     [IMPACT_CARE_ROUGH] = {12.6, 0.4, 0.7},
 };
 
-/* Of several contacts with a sequence's care, which begin and end anywhere on each other's steps:
- * the roughness of the others bounds these steps too. Of 200 random groups on beams these leave at
- * tolerances of 1e-3 and 1e-4 what steps an eighth as long leave without projected ends. */
+/* For several contacts with a sequence's care, which begin and end anywhere on each other's steps:
+ * the roughness of the others bounds these steps too. On 200 random groups on beams, at tolerances
+ * of 1e-3 and 1e-4, these leave the error of steps an eighth as long with plain ends. */
 static const struct projected_ends projected_several = {16.0, 0.25, 0.25};
 
 static bool may_project(const struct scene *scene, enum impact_care care)
@@ -127,8 +131,8 @@ static bool may_project(const struct scene *scene, enum impact_care care)
     return care != IMPACT_CARE_BESIDE && (scene->contacts == 1 || is_elastic_group(scene));
 }
 
-/* Longer first and last steps where a scene's contacts are one, or a group that does not yield, and
- * their forces there may be projected (step_ends.h). */
+/* Allows longer first and last steps where their forces may be projected (step_ends.h): for a
+ * single contact, or a group that does not yield. */
 static void step_limits_project(struct step_limits *limits, const struct scene *scene,
                                 const struct impact_settings *settings)
 {
@@ -144,13 +148,13 @@ static void step_limits_project(struct step_limits *limits, const struct scene *
     limits->projected[1] = fmax(limits->opening_share, fmin(ends->longest_opening, share));
 }
 
-/* Work of the acceleration on the way to the scale's indentation, over the approach's energy: from
- * here on it counts. With the speed of the approach, indentation over duration, a contact comes
- * back 2 speed/acceleration after its end: here after 40 durations. */
+/* Largest work of the acceleration along the scale's indentation, over the approach's energy, that
+ * is negligible. A contact that opens with the speed of the approach, indentation over duration,
+ * closes again after 2 speed/acceleration: here 40 durations. */
 static const double PRESSED = 0.1;
 
-/* A contact begins, with that scale: chooses the shares, and whether its ends are projected. What
- * acceleration presses is back soon after its end, which a long step would not see. */
+/* A contact of that scale begins: chooses the shares, and whether its ends are projected. An
+ * acceleration that presses closes it again soon after its end; a long step would miss that. */
 static bool step_limits_open(struct step_limits *limits, const struct scene *scene, size_t contact,
                              const struct impact_scale *scale)
 {
@@ -168,8 +172,8 @@ static bool step_limits_open(struct step_limits *limits, const struct scene *sce
     return projects;
 }
 
-/* Of one contact, as if the strongest mode of a body were the slowest that its steps do not
- * resolve: a sequence's comparison with longer steps bears no longer ones. */
+/* For one contact, as if the strongest mode of a body were the slowest that its steps do not
+ * resolve: the comparison solution of a sequence allows no longer steps. */
 static double stable_alone(const struct scene_group *group, const double *phi, double stiffness,
                            double coupling)
 {
@@ -181,8 +185,8 @@ static double stable_alone(const struct scene_group *group, const double *phi, d
     return fmax(coupled, RESOLVED / group->set->omega[group->count - 1]);
 }
 
-/* Of a contact among several, mode by mode: omega h <= RESOLVED or phi^2 (dF/dd) h/omega <=
- * coupling. What stands for all omitted modes of a body at once is strong and far away. */
+/* For a contact among several, mode by mode: omega h <= RESOLVED or phi^2 (dF/dd) h/omega <=
+ * coupling. The mode that represents a body's omitted modes is strong, its frequency high. */
 static double stable_beside(const struct scene_group *group, const double *phi, double stiffness,
                             double coupling)
 {
@@ -218,13 +222,15 @@ static double step_limits_stable(const struct scene *scene, size_t contact,
     return longest;
 }
 
-/* Steps that pass knots of an interpolated law. A force's third derivative jumps there: of its
- * moments four nodes miss what goes with the fourth power of the step, where they miss the eighth
- * of a smooth one. The indentation, on which the force acts by its double integral, stays smooth
- * enough: it tells how the jumps go on, and that has moments. */
+/* ---- Knots of interpolated laws ---- */
 
-/* The forces that are missed act on the approach, and so on themselves: by a tenth or less on a
- * step that a contact's roughness allows. Until the last round changes them by so little. */
+/* A step may pass knots of an interpolated law, where the force's third derivative jumps. Four
+ * nodes give its moments with an error of the fourth power of the step, those of a smooth force
+ * with one of the eighth. The indentation, a double integral of the force, stays smooth enough: the
+ * force behind the jumps is evaluated along it, and its moments correct the forces at the nodes. */
+
+/* Corrections of forces act on the approach, and by it on themselves: by a tenth or less on a step
+ * that a contact's roughness allows. The last round changes them by less than this share. */
 enum { ROUNDS = 8 };
 static const double SMALL_CHANGE = 1e-2;
 
@@ -235,21 +241,21 @@ struct passage {
     double compliance;       /* c, in series with it */
     const double *nodes;     /* indentations */
     const double *stiffness; /* of the law at the nodes */
-    double least;            /* what a knot adds that counts, N */
+    double least;            /* a smaller force of a knot is neglected, N */
     double missed[NODES];    /* force by the moments less force at the node */
 };
 
-/* What a knot adds to the force behind it: a cube of the way from there times what goes like the
- * force's slope. */
+/* Force that a knot adds behind it: a cube of the way from there times a factor like the force's
+ * slope. */
 static double behind(const struct contact_knot *knot, double d)
 {
     double way = d - knot->indentation;
     return knot->cube * (way * way * way) * sqrt(d / knot->indentation);
 }
 
-/* A knot is passed at a share of the step. What its force adds behind it, or takes before it, on
- * the shorter side, as the other one is that and a smooth force: by the rule whose places the nodes
- * are, on the cubic through them, divided by a node's weight as a cubic's moments are. */
+/* Adds a knot that is passed at a share of the step: the moments of the force that it adds behind
+ * it or takes before it, on the shorter side; the rest is smooth. Gauss's rule integrates it along
+ * the cubic through the nodes; moments over a node's weight are a force at the node. */
 static void add_knot(struct passage *passage, const struct contact_knot *knot, double share)
 {
     bool before = share < 0.5;
@@ -272,7 +278,7 @@ static void add_knot(struct passage *passage, const struct contact_knot *knot, d
             passage->missed[j] += before ? behind(knot, nodes[j]) : -behind(knot, nodes[j]);
 }
 
-/* The share of the step with an indentation, where straight lines between the nodes have it. */
+/* The share of the step at an indentation, by straight lines between the nodes. */
 static double share_of(const struct passage *passage, const double ends[2], double indentation)
 {
     double before = 0.0;
@@ -288,7 +294,7 @@ static double share_of(const struct passage *passage, const double ends[2], doub
     return 1.0;
 }
 
-/* All knots that count. False: there is none. */
+/* Adds all knots that are not negligible. False: there is none. */
 static bool add_knots(struct passage *passage, const double ends[2])
 {
     const struct plastic_curve *curve = passage->law->operations->curve;
@@ -310,8 +316,8 @@ static bool add_knots(struct passage *passage, const double ends[2])
     return any;
 }
 
-/* By how much forces at the nodes lessen the indentation at one of them, or at the end. What a node
- * has of the compliance itself is in its block. */
+/* Decrease of the indentation at a node, or at the end, by forces at the nodes. The block of a node
+ * contains the compliance, which is taken out. */
 static double lessen(const struct passage *passage, int node, const double force[NODES])
 {
     const double *by = passage->block->by[node];
@@ -322,7 +328,7 @@ static double lessen(const struct passage *passage, int node, const double force
     return sum / (1.0 + passage->compliance * stiffness);
 }
 
-/* change = missed - F' lessen(change), the law's answer to what they do. */
+/* Solves change = missed - F' lessen(change) by iteration. */
 static bool find_change(const struct passage *passage, double change[NODES])
 {
     double most = 0.0;
@@ -369,7 +375,7 @@ static bool step_knots_pass(struct contact_step *step, const struct scene *scene
     for (int j = 0; j < NODES; j++)
         if (!(nodes[j] > 0.0))
             return false;
-    /* what the nodes miss, and what that does */
+    /* the forces that the nodes miss, and the change that they cause */
     const double ends[2] = {start, *step->end_indentation};
     passage.least = step->last_change * larger(step->force[0][0], step->force[0][NODES - 1]);
     if (!add_knots(&passage, ends) || !find_change(&passage, change))
@@ -384,6 +390,8 @@ static bool step_knots_pass(struct contact_step *step, const struct scene *scene
     *step->end_indentation -= less[NODES];
     return true;
 }
+
+/* ---- March of the modal method ---- */
 
 struct modal_run {
     struct march march;
@@ -409,8 +417,8 @@ static const double SHARE_TO_OPENING = 0.85;
  * against this share of the group's force. */
 static const double SHARE_OF_GROUP = 0.01;
 
-/* Half a step has an eighth of the roughness, whose coefficient falls with the third power. A step
- * is thrown away from nearly the geometric middle of the two on: the next are shorter anyway. */
+/* Half a step has an eighth of the roughness, a coefficient of the third power. A step is rejected
+ * beyond nearly the geometric middle of the two: the next are shorter anyway. */
 static const double LONGER_ROUGHER = 8.0;
 static const double TOO_ROUGH = 3.0;
 
@@ -421,7 +429,7 @@ enum {
     ITERATIONS_PER_STEP = 8
 };
 
-/* The contacts that are closed, or their scales, have changed. */
+/* Finds the finest level anew after a change of the closed contacts or of their scales. */
 static void find_finest(struct modal_run *run)
 {
     double shortest = SLOWEST_SHARE * run->march.horizon;
@@ -431,8 +439,8 @@ static void find_finest(struct modal_run *run)
     run->finest = step_level(shortest * run->limits.event_share);
 }
 
-/* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
- * the top and hold less energy: the speed goes with its root. */
+/* Laws have yielded: their contacts take the scale of the unloading branches, which are shorter,
+ * stiffest at the top and store less energy; the speed goes with its root. */
 static void rescale(struct modal_run *run)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
@@ -450,7 +458,7 @@ static void rescale(struct modal_run *run)
     find_finest(run);
 }
 
-/* Laws have yielded. False: one has begun an unloading that its series compliance does not bear. */
+/* Laws have yielded. False: an unloading branch is too stiff for the series compliance. */
 static bool unload(struct modal_run *run)
 {
     rescale(run);
@@ -508,7 +516,7 @@ static double group_force(const struct modal_run *run)
     return group;
 }
 
-/* Force against which a contact's roughness counts: its scale, or what it bears already. */
+/* Reference force of a contact's roughness: its scale, or its force on the step. */
 static double force_scale(const struct modal_run *run, size_t contact, double group)
 {
     const double *force = run->step.force[contact];
@@ -517,7 +525,7 @@ static double force_scale(const struct modal_run *run, size_t contact, double gr
     return larger(own, SHARE_OF_GROUP * group);
 }
 
-/* How much of the contacts' forces the highest coefficient of the step's cubic is. In a group a
+/* The highest coefficient of the step's cubic as a share of the contacts' forces. In a group a
  * contact may close after the last node: there the cubic misses the force at the end. */
 static double step_roughness(const struct modal_run *run)
 {
@@ -580,7 +588,7 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     run->now[c] = after;
 }
 
-/* What the nodes miss where contacts begin or end, and where the only one's law has knots. */
+/* Corrects the forces at the nodes where contacts begin or end, and at a single law's knots. */
 static void correct_forces(struct modal_run *run, int level)
 {
     const struct scene *scene = &run->march.scene;
@@ -621,7 +629,7 @@ static void begin_phase(struct modal_run *run, size_t contact)
     }
 }
 
-/* Too long: rough, or the only contact ends within it. */
+/* Whether a step is too long: it is rough, or the only contact ends within it. */
 static bool is_coarse(const struct modal_run *run, double roughness)
 {
     return roughness > TOO_ROUGH * run->limits.roughness || has_event(run);
@@ -644,7 +652,7 @@ static int first_level(const struct modal_run *run)
     return level < run->finest ? level : run->finest;
 }
 
-/* Solves the step of a level and counts what that took. */
+/* Solves the step of a level and counts the work. */
 static enum contact_step_end solve_step(struct modal_run *run, int level)
 {
     unsigned long before = run->step.iterations;
@@ -671,7 +679,7 @@ static enum percuss_end_reason go_through(struct modal_run *run)
         double h = step_length(level), time = march->outcome->motion.time;
         if (time + h == time || march->horizon - time < step_length(deepest))
             return PERCUSS_END_IN_CONTACT;
-        /* one that has no solution or is too coarse is tried again with half its length */
+        /* a step without a solution, or too coarse, is tried again with half its length */
         enum contact_step_end end = solve_step(run, level);
         if (end == STEP_MEMORY)
             return march_fail(march, PERCUSS_INTERNAL);
@@ -684,14 +692,14 @@ static enum percuss_end_reason go_through(struct modal_run *run)
             level++;
             continue;
         }
-        /* one that passes the instant at which a law changes, with another length or another law */
+        /* a step that passes the instant at which a law changes is solved again */
         if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
             if (!unload(run))
                 return PERCUSS_END_LIMIT;
             march->outcome->rejected++;
             continue;
         }
-        /* one that is taken: the next is as long as its roughness allows */
+        /* an accepted step: the next is as long as its roughness allows */
         accept(run, level);
         level = next_level(run, level, roughness);
         if (run->yielding.any && yielding_meet(&run->yielding, h, &level) && !unload(run))
@@ -710,7 +718,7 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
     return end;
 }
 
-/* The window ends: contacts that are being loaded yield so far, and all keep what they store. */
+/* The window ends: contacts under load yield up to here, and all store their indentation. */
 static void end_march(void *state)
 {
     struct modal_run *run = state;
