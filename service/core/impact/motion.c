@@ -64,7 +64,7 @@ static double damping_towards(const struct scene_group *group, size_t mode, doub
     return time < 0.0 ? 0.0 : group->set->damping[mode];
 }
 
-/* Whether flight_kernel_turn takes a group's modes so far. */
+/* Whether flight_kernel_turn can move a group's modes over a time. */
 static bool turns_at_once(const struct scene_group *group, double time)
 {
     return time >= 0.0 && group->count > 0 &&

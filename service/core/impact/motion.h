@@ -21,7 +21,7 @@ struct motion {
 /* Memory for a state from the arena. False: out of memory. */
 bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena);
 
-/* The stated instant. */
+/* Sets the state of the stated instant. */
 void motion_start(struct motion *motion, const struct scene *scene);
 
 void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene);
@@ -29,27 +29,27 @@ void motion_copy(struct motion *to, const struct motion *from, const struct scen
 /* Free motion over `time` >= 0. */
 void motion_advance(struct motion *motion, const struct scene *scene, double time);
 
-/* The same for time >= 0, as exact but to other bits: all modes of a group at once where that goes
- * (FLIGHT_TURN_ANGLE). */
+/* The same for time >= 0, as exact but to other bits: all modes of a group at once where their
+ * angles are within FLIGHT_TURN_ANGLE. */
 void motion_turn(struct motion *motion, const struct scene *scene, double time);
 
-/* Tables by which that goes over a time, [group]; NULL in them: by none. False: out of memory. And
- * the motion by them, to the same bits. */
+/* Tables of motion_turn for a time, [group]; NULL for a group that moves mode by mode. False: out
+ * of memory. motion_turn_by moves by them, to the same bits. */
 bool motion_turn_tables(const struct scene *scene, double time, struct arena *arena,
                         double **tables);
 void motion_turn_by(struct motion *motion, const struct scene *scene, double time,
                     double *const *tables);
 
-/* Free motion back over `time` >= 0, as if nothing were damped: damping run backward would blow the
- * rounding of fast modes up without bound. The vibration's energy stays what it is. */
+/* Undamped free motion back over `time` >= 0: damping run backward would amplify the rounding of
+ * fast modes without bound. The vibration's energy is constant. */
 void motion_rewind(struct motion *motion, const struct scene *scene, double time);
 
-/* Free motion over the step of a level whose tables are ready, from `from` into `to`, which may be
- * the same. */
+/* Free motion over the step of a level, with tables that are ready, from `from` into `to`, which
+ * may be the same. */
 void motion_step(struct motion *to, const struct motion *from, const struct scene *scene,
                  int level);
 
-/* Adds to the end of such a step what the contact forces at its nodes do. */
+/* Adds the effect of the contact forces at the nodes of such a step to its end. */
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES]);
 
@@ -59,8 +59,7 @@ static inline bool motion_bears(const double force[NODES])
     return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
 }
 
-/* What the forces at the nodes of a step of length h come to at its end: their integral, and their
- * double integral. */
+/* Integral and double integral, over a step of length h, of the forces at its nodes. */
 static inline void motion_integrate(const double force[NODES], double h, double *impulse,
                                     double *travel)
 {
@@ -74,7 +73,7 @@ static inline void motion_integrate(const double force[NODES], double h, double 
     *travel = twice * (h * h);
 }
 
-/* The rigid part of the two, and the time. */
+/* The rigid part of motion_step (with the time) and of motion_push. */
 void motion_step_gaps(struct motion *to, const struct motion *from, const struct scene *scene,
                       int level);
 void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,

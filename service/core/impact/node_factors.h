@@ -11,13 +11,13 @@
 
 #include "impact/collocation.h"
 
-/* Two nodes of a contact, wherever they lie: what every vector unit has; the lanes' order of
- * operations is that of scalars. */
+/* Two nodes of a contact, at any address: every vector unit has this width. The lanes have the
+ * order of operations of scalars. */
 typedef double node_pair __attribute__((vector_size(2 * sizeof(double)), aligned(8)));
 #define NODE_PAIR(at)       (*(node_pair *)(at))
 #define NODE_CONST_PAIR(at) (*(const node_pair *)(at))
 
-/* What a comparison of two nodes says. */
+/* Result of a comparison of two nodes. */
 typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
 
 /* A row's lanes 0, 1 and 2, 3. */
@@ -25,8 +25,8 @@ struct node_row {
     node_pair low, high;
 };
 
-/* Row i of the matrix 1 + coupling F' but for the 1, and what the forces take from the approach, in
- * two parts. */
+/* Row i of the matrix coupling F'. Returns the decrease of the approach by the forces, in two
+ * parts. */
 static inline node_pair node_row_of(const double coupling[NODES], const double force[NODES],
                                     const double stiffness[NODES], struct node_row *row)
 {
@@ -58,18 +58,18 @@ static inline void node_rows_make(const double (*m)[NODES], const double stiffne
     node_rows_add_one(matrix);
 }
 
-/* Pivots, 1 where nothing couples, from which on elimination without exchanges loses a digit. */
+/* Below this pivot (1 without coupling) elimination without exchanges loses a digit. */
 static const double LEAST_PIVOT = 0.1;
 
-/* What is below the diagonal, above it, and on it. */
+/* The factors below the diagonal, above it, and on it. */
 struct node_factors {
     double lower[NODES * (NODES - 1) / 2], upper[NODES * (NODES - 1) / 2];
     double reciprocal[NODES - 1], last; /* of the pivots but the last, and that */
     bool sound;                         /* no pivot is too small for the order of the nodes */
 };
 
-/* Elimination in the order given, of the identity plus a small causal matrix, without exchanges: a
- * pivot that is too small spoils only what is thrown away. */
+/* Eliminates the identity plus a small causal matrix in the given order, without exchanges. After a
+ * pivot that is too small (`sound` false) the factors are not used. */
 static inline struct node_factors node_factors_make(const struct node_row a[NODES])
 {
     struct node_factors f;

@@ -13,12 +13,12 @@
 #include "impact/simd.h"
 #include "numeric/linear.h"
 
-/* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
- * would take for ever. */
+/* Newton's method takes two or three iterations in an ordinary step; after so many it does not
+ * converge. */
 enum { MAX_ITERATIONS = 40 };
 
-/* Contact by contact some five are taken; where one leaves more than this share of the change of
- * the one before, after these first ones, all contacts at once are the shorter way. */
+/* Contact by contact it takes some five. Where, after the first ones, the change falls by less than
+ * to this share of the one before, solving all contacts at once is faster. */
 enum { FIRST_ITERATIONS = 3, MAX_APART = 20 };
 static const double SLOWEST = 0.5;
 
@@ -36,16 +36,15 @@ static inline bool eliminate(const struct node_row a[NODES], const double b[NODE
     return factors.sound;
 }
 
-/* What an update changed, against the indentations and against the approaches without force: these
- * can be far larger in a long contact, and set the rounding. */
+/* The change of an update, the indentations and the approaches without force: these can be far
+ * larger in a long contact, and set the rounding. */
 struct progress {
     double change, previous;
-    double share; /* of the change before that one, which `previous` was */
+    double share; /* `previous` over the change before it */
     double indentation, target;
 };
 
-/* Whether the iteration ends: the change was small enough for its square to be nothing, or was
- * rounding. */
+/* Whether the iteration ends: the square of the change is negligible, or the change is rounding. */
 static bool settled(const struct progress *progress, double last_change)
 {
     return progress->change <= last_change * progress->indentation ||
@@ -54,7 +53,7 @@ static bool settled(const struct progress *progress, double last_change)
             progress->change >= progress->previous);
 }
 
-/* Forces after the last, tiny update: the slope that it was made with carries them along. */
+/* Forces after the last, tiny update, by the slope that the update used. */
 static inline void follow(double force[NODES], const double stiffness[NODES],
                           const double change[NODES])
 {
@@ -147,8 +146,7 @@ bool node_solve_linear(const double (*m)[NODES], const double stiffness[NODES],
     return eliminate(matrix, b, x);
 }
 
-/* One contact's change beside the others' forces as they are. An open contact follows from those.
- */
+/* One contact's change under the present forces of the others. */
 static bool change_apart(const struct node_problem *problem, size_t contact, const double d[NODES],
                          const double stiffness[NODES], double change[NODES])
 {
@@ -168,8 +166,8 @@ static void note_change(struct progress *progress, bool pressed, const double d[
     progress->indentation = larger(progress->indentation, largest_of(d));
 }
 
-/* As settled, where others' forces are those of before: what is left falls by a share, which is no
- * larger than those of the last two changes (two, as contacts can matter to each other in turn). */
+/* As settled, with the others' forces of the iteration before: the error falls by a share that is
+ * no larger than those of the last two changes (two, as contacts can affect each other in turn). */
 static bool settled_apart(const struct progress *progress, double last_change)
 {
     double share = isfinite(progress->previous) ? progress->change / progress->previous : 1.0;
@@ -179,7 +177,7 @@ static bool settled_apart(const struct progress *progress, double last_change)
                                         progress->change <= ROUNDING_OF_SUMS * progress->target));
 }
 
-/* The largest approach without force, whose rounding counts. */
+/* The largest approach without force: it sets the rounding. */
 static double largest_target(const struct node_problem *problem)
 {
     double largest = 0.0;
@@ -188,7 +186,7 @@ static double largest_target(const struct node_problem *problem)
     return largest;
 }
 
-/* Several contacts, each by itself beside the others. */
+/* Several contacts, each by itself under the forces of the others. */
 static bool solve_apart(const struct node_problem *problem, double (*d)[NODES],
                         double (*force)[NODES], double (*stiffness)[NODES],
                         unsigned long *iterations)
@@ -286,7 +284,7 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
         for (size_t i = 0; i < NODES; i++)
             thrust[system->pressed[p]][i] =
                 stiffness[system->pressed[p]][i] * system->right[p * NODES + i];
-    /* all of them by what those change */
+    /* all of them by the changes of those forces */
     coupling_take(problem->coupling, problem->scene, problem->level, thrust, problem->taken);
     for (size_t c = 0; c < n; c++)
         for (int i = 0; i < NODES; i++)
@@ -351,7 +349,7 @@ void node_linear_fill(struct node_linear *linear, const struct coupling *couplin
         }
 }
 
-/* Takes row k out of those below it. */
+/* Eliminates column k from the rows below row k. */
 static inline void take_out(struct node_linear *linear, size_t k, size_t rows)
 {
     const struct node_linear_row *top = &linear->row[k];

@@ -31,7 +31,7 @@ static inline double node_solver_last_change(double accuracy)
 {
     /* the square has a factor of the order of one, and the forces sum up several of them */
     static const double RESERVE = 0.1;
-    /* what is left after that is rounding */
+    /* the error after that change is rounding */
     static const double SMALLEST = 1e-7;
     double change = RESERVE * sqrt(accuracy);
     return change > SMALLEST ? change : SMALLEST;

@@ -8,12 +8,14 @@
 
 #include "base/vector_clones.h"
 
+/* ---- Maps over a step ---- */
+
 double complex oscillator_lambda(double omega, double damping)
 {
     return omega * CMPLX(-damping, sqrt((1.0 - damping) * (1.0 + damping)));
 }
 
-/* Damping run backward grows without bound: this keeps squares of it finite. */
+/* Largest exponent of growth when damping runs backward: squares stay finite. */
 static const double LARGEST_EXPONENT = 300.0;
 
 /* |z c| from which on moments are found upward, see oscillator_moments. */
@@ -138,7 +140,7 @@ void oscillator_map(double omega, double damping, double h, double c, double to_
     double complex lambda = oscillator_lambda(omega, damping);
     double complex z = lambda * h;
     double complex moments[NODES];
-    /* the motion before, whose wave the moments of fast ones need too */
+    /* the free motion; the moments of fast oscillators need its wave too */
     free_map(lambda, c * h, to_q, to_v);
     if (square(z * c) < LARGE * LARGE)
         small_moments(z, c, moments);
@@ -158,6 +160,8 @@ void oscillator_map(double omega, double damping, double h, double c, double to_
         to_v[j + 2] = share * (creal(lambda) * imaginary + cimag(lambda) * real);
     }
 }
+
+/* ---- Losses of a step ---- */
 
 /* omega h below which the loss is found by quadrature. */
 static const double SLOW_ANGLE = 2.0;
@@ -186,12 +190,12 @@ static void form_by_quadrature(double omega, double damping, double h,
     }
 }
 
-/* Splits the response to input r into the wave and the particular solution, a cubic in s whose
- * coefficients the equation gives from the highest down: with s = t/h
+/* Splits the response to input r into the wave and the particular solution, a cubic in s with
+ * coefficients from the equation, from the highest down: with s = t/h
  *
  *   omega^2 q_m = f_m - (2 zeta omega/h) (m + 1) q_(m+1) - (1/h^2) (m + 2) (m + 1) q_(m+2)
  *
- * The wave has what then lacks of the initial values. */
+ * The wave has the rest of the initial values. */
 static struct velocity split(double omega, double damping, double h, int r)
 {
     double q[NODES + 2] = {0};
@@ -267,10 +271,12 @@ void oscillator_loss_form(double omega, double damping, double h,
             form[r][s] = form[s][r];
 }
 
+/* ---- Series for slow oscillators ---- */
+
 /* The four nodes together. */
 typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
 
-/* Angles below this: the terms, which fall from the first on, lose nothing to each other. */
+/* Angles below this: the terms fall from the first on, without cancellation. */
 static const double LARGEST = 3.0;
 
 enum { TERMS = 14 };
@@ -459,7 +465,7 @@ static inline const double *first_term(int row)
     return row < NODES ? collocation.position[row] : collocation.position_end;
 }
 
-/* Horner's rule on all of them. */
+/* Horner's rule on all rows. */
 VECTOR_CLONES static void sum_up(int terms, double square, const double scales[SERIES_ROWS],
                                  double by[SERIES_ROWS][NODES])
 {

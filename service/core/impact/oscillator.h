@@ -40,7 +40,7 @@ void oscillator_loss_form(double omega, double damping, double h,
 
 enum { SERIES_ROWS = STEP_POINTS + 1 };
 
-/* Whether the angle is small enough for it. */
+/* Whether an angle omega h is small enough for oscillator_series_response. */
 bool oscillator_series_reaches(double angle);
 
 /* by[point][j]: q at a node or the end by the force at node j; by[STEP_POINTS][j]: v at the end. */
