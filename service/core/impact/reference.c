@@ -15,11 +15,13 @@
 #include "impact/motion.h"
 #include "numeric/ode.h"
 
+/* ---- The system for CVODE ---- */
+
 /* A whole scene as one system of ordinary differential equations, for a general solver.
  *
  * y: [contacts] gaps, [contacts] gap rates, [contacts] impulses, 1 damping loss, then every group's
  * q and v. Root functions: per contact the local indentation, the approach rate and, where a law
- * yields, the indentation above the limit of what can be undone. */
+ * yields, the indentation beyond the elastic limit. */
 struct reference_system {
     const struct scene *scene;
     size_t roots;                                           /* root functions of a contact */
@@ -30,10 +32,10 @@ struct reference_system {
     double *absolute_force; /* [contact] of a collision with all the energy, N */
 };
 
-/* A root function must be finite; no contact indents by so much, m. */
+/* A root function must be finite; every indentation is smaller than this, m. */
 static const double ENDLESS = 1e3;
 
-/* Tolerances must not be 0: of bodies at rest, J. */
+/* Energy of bodies at rest, J, as tolerances must not be 0. */
 static const double LEAST_ENERGY = 1e-300;
 
 static size_t oscillator_count(const struct scene *scene)
@@ -50,7 +52,7 @@ static bool reference_system_create(struct reference_system *system, const struc
 {
     size_t n = scene->contacts;
     *system = (struct reference_system){.scene = scene, .roots = 2};
-    /* laws that yield have a root function more */
+    /* a third root function of laws that yield */
     for (size_t c = 0; c < n; c++)
         if (scene->laws[c].operations->curve)
             system->roots = 3;
@@ -128,7 +130,7 @@ static void reference_system_rates(double t, const double *y, double *rate, void
             rate[n + i] += scene->w[i * n + j] * system->force[j];
         rate[2 * n + i] = system->force[i];
     }
-    /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and what damping takes */
+    /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and the damping loss */
     double loss = 0.0;
     double *next = rate + 3 * n + 1;
     for (size_t g = 0; g < scene->groups; g++) {
@@ -166,13 +168,14 @@ static void reference_system_roots(double t, const double *y, double *values, vo
     }
 }
 
-/* Absolute tolerances from the energy at hand in a motion, so that no unit is favoured. */
+/* Sets the absolute tolerances from the energy of a motion, so that they are independent of
+ * units. */
 static void reference_system_tolerate(struct reference_system *system, const struct motion *motion,
                                       double relative)
 {
     const struct scene *scene = system->scene;
     size_t n = scene->contacts;
-    /* the energy at hand: of the approaches and of vibration */
+    /* the energy of the approaches and of vibration */
     double energy = LEAST_ENERGY;
     for (size_t c = 0; c < n; c++) {
         double v = scene->gap_rate[c];
@@ -181,7 +184,7 @@ static void reference_system_tolerate(struct reference_system *system, const str
     for (size_t g = 0; g < scene->groups; g++)
         for (size_t b = 0; b < scene->bodies; b++)
             energy += motion_vibration(motion, scene, b) / (double)scene->groups;
-    /* a contact with all of it: force, gap, rate and impulse */
+    /* a contact with all the energy: force, gap, rate and impulse */
     for (size_t c = 0; c < n; c++) {
         double v = sqrt(2.0 * energy * scene->w[c * n + c]);
         struct impact_scale scale = impact_scale_of(scene, c, v);
@@ -191,7 +194,7 @@ static void reference_system_tolerate(struct reference_system *system, const str
         system->absolute[2 * n + c] = relative * v / scene->w[c * n + c];
     }
     system->absolute[3 * n] = relative * energy;
-    /* a mode with all of it */
+    /* a mode with all the energy */
     double *next = system->absolute + 3 * n + 1;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
@@ -203,19 +206,21 @@ static void reference_system_tolerate(struct reference_system *system, const str
     }
 }
 
-/* The impulse's error gathers from many steps: CVODE's relative tolerance is this share of the
- * accuracy asked for, but not beyond rounding. */
+/* ---- The method ---- */
+
+/* The impulse's error adds up over many steps: CVODE's relative tolerance is this share of the
+ * accuracy, but at least LEAST_TOLERANCE because of rounding. */
 static const double SHARE_OF_ACCURACY = 0.01;
 static const double LEAST_TOLERANCE = 1e-14;
 
 /* A contact that starts nearer than this share of its indentation's scale has touched. */
 static const double TOUCHING = 1e-12;
 
-/* A force is none below this share of that of a collision with all the energy: rounding. */
+/* A force below this share of that of a collision with all the energy is rounding. */
 static const double NO_FORCE = 1e-9;
 
-/* CVODE sees roots between its steps only: this angle of the fastest mode (pi/4, an eighth of its
- * period) is the longest step. */
+/* CVODE finds a root only by a change of sign over a step: this angle of the fastest mode (pi/4, an
+ * eighth of its period) is the longest step. */
 static const double LONGEST_ANGLE = 0.25 * M_PI;
 
 /* Passes over the modes in a step: right-hand sides, and the steps that CVODE remembers. */
@@ -228,7 +233,7 @@ struct reference {
     struct ode *ode; /* NULL: not begun */
     double *y;
     double *opened; /* [contact] impulse when the sub-impact began */
-    double *noted;  /* [contact] impulse whose moment is noted */
+    double *noted;  /* [contact] impulse of which the moment is noted */
 };
 
 static bool reference_create(struct reference *run, struct arena *arena)
@@ -268,7 +273,7 @@ static void note_impulse(struct reference *run, size_t c)
         run->y[2 * run->march.scene.contacts + c] - run->opened[c];
 }
 
-/* The largest indentation beyond the limit, if it is: the dent deepens. */
+/* Deepens the dent where the indentation exceeds the limit. */
 static void yield(struct reference *run, size_t c)
 {
     struct impact_outcome *outcome = run->march.outcome;
@@ -281,7 +286,7 @@ static void yield(struct reference *run, size_t c)
     run->y[c] += deeper;
     run->system.indentation[c] -= deeper;
     outcome->tracks[c].deepened += deeper;
-    /* as the modal method finds it; here the solution goes on */
+    /* as in the modal method, but the solution goes on */
     if (!contact_bears(&run->march.scene, c, contact_law_unloading(law)))
         outcome->too_stiff = true;
 }
@@ -312,7 +317,7 @@ static void handle_roots(struct reference *run, double t, const int *found)
 }
 
 /* CVODE does not report the rise of a root function that was exactly zero at a start: a contact
- * that touched at rest. Its force is right all the same, only the books are opened a step late. */
+ * that touched at rest. Its force is right, only the books are opened a step late. */
 static void open_unreported(struct reference *run, double t)
 {
     reference_system_forces(&run->system, run->y);
@@ -329,7 +334,7 @@ static bool is_complete(struct reference *run, const double *y)
     double left = run->march.horizon - run->march.outcome->motion.time;
     reference_system_unpack(&run->system, y, &run->system.motion);
     for (size_t c = 0; c < scene->contacts; c++) {
-        /* what vibration can bridge: sum |phi| sqrt(q^2 + v^2/omega^2) */
+        /* largest displacement by vibration: sum |phi| sqrt(q^2 + v^2/omega^2) */
         double bound = 0.0;
         for (size_t g = 0; g < scene->groups; g++) {
             const struct scene_group *group = &scene->group[g];
@@ -351,8 +356,8 @@ static bool is_complete(struct reference *run, const double *y)
     return true;
 }
 
-/* After a root at which the right-hand side is not smooth: where a contact opens or closes, and
- * where a law may have yielded at a peak. */
+/* Whether the right-hand side is not smooth at a root: where a contact opens or closes, and where a
+ * law may have yielded at a peak. */
 static bool must_restart(const struct reference *run, const int *found)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++)
@@ -362,7 +367,7 @@ static bool must_restart(const struct reference *run, const int *found)
     return false;
 }
 
-/* Of the impulses of a step, which is far shorter than a contact, about its middle. */
+/* Adds the moments of a step's impulses, at its middle: it is far shorter than a contact. */
 static void note_moments(struct reference *run, double before, double now)
 {
     size_t n = run->march.scene.contacts;
@@ -446,7 +451,7 @@ static void end_march(void *state)
     struct march *march = &run->march;
     if (!run->ode)
         return;
-    /* contacts that are being loaded yield so far */
+    /* contacts under load yield up to here */
     reference_system_forces(&run->system, run->y);
     for (size_t c = 0; c < march->scene.contacts; c++)
         if (march->closed[c])
@@ -461,7 +466,7 @@ static void end_march(void *state)
         march->indentation[c] = run->system.indentation[c];
     }
     march->damping = run->y[3 * march->scene.contacts];
-    /* what it took */
+    /* the effort */
     unsigned long evaluations;
     ode_effort(run->ode, &evaluations, &march->outcome->steps);
     march->used = march->outcome->steps + evaluations;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the fast scale reports, contact by contact. */
+/* Results of the fast scale, contact by contact. */
 #ifndef PERCUSS_IMPACT_RESULT_H
 #define PERCUSS_IMPACT_RESULT_H
 
@@ -29,7 +29,7 @@ struct impact_energy {
     double available;
     double rigid_after;
     double vibration; /* all bodies */
-    double damping;   /* with what half-spaces radiate, see solve/radiation.h */
+    double damping;   /* with the radiation into half-spaces, see solve/radiation.h */
     double plastic;
     double stored;
     double closure; /* available - all the others */

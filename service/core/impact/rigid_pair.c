@@ -11,7 +11,8 @@
 #include "impact/impact.h"
 #include "impact/impact_scale.h"
 
-/* Newton's method from within a few times the solution takes some six rounds to the last bit. */
+/* Newton's method takes some six rounds to the last bit from a start within a few times the
+ * solution. */
 enum { MAX_ROUNDS = 60 };
 static const double ROUNDING = 1e-16;
 
@@ -39,11 +40,11 @@ bool impact_is_rigid_pair(const struct scene *scene)
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 && stays_elastic(scene);
 }
 
-/* What the integrals of a compression give. */
+/* Integrals of a compression. */
 struct compression {
     double indentation; /* largest, m */
     double duration;    /* s */
-    double viscosity;   /* int F'^2 dt, which omitted viscosity counts by, N^2/s */
+    double viscosity;   /* int F'^2 dt, for the effect of omitted viscosity, N^2/s */
 };
 
 static struct compression compress_hertz(const struct contact_law *law, double energy, double speed)
@@ -114,7 +115,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     motion_start(&outcome->motion, scene);
     outcome->time_shift = touch;
     outcome->end_reason = PERCUSS_END_SEPARATED;
-    /* how deep, and for how long: rebound takes the time of compression */
+    /* depth and duration: rebound takes the time of compression */
     const struct contact_law *law = &scene->laws[0];
     struct compression compression =
         law->operations == &contact_law_HERTZ

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The fast scale's problem, reduced to what matters: n contacts, their rigid coupling W, and the
+/* The fast scale's problem in its essential terms: n contacts, their rigid coupling W, and the
  * oscillators that the contacts can excite.
  *
  *   gap rate   g'' = W F + acceleration                       (rigid part)

@@ -9,15 +9,15 @@
 #include "base/vector_clones.h"
 #include "impact/step_table.h"
 
-/* Four modes, and two. gcc keeps sums that are wider than the vector unit's in memory from turn to
- * turn of a loop: what sums in an inner loop is written for either (VECTOR, WIDTH of its lanes). */
+/* Four modes, and two. gcc keeps sums that are wider than the vector unit's in memory during a
+ * loop: inner loops with sums are written for either width (VECTOR, WIDTH of its lanes). */
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef double half __attribute__((vector_size(2 * sizeof(double))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
 #define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
-/* A contact's four nodes, wherever they lie. */
+/* A contact's four nodes, at any address. */
 typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
 #define QUAD(at)       (*(quad *)(at))
 #define CONST_QUAD(at) (*(const quad *)(at))

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-/* The polynomial of degree five through both ends and the four nodes of a step. */
+/* ---- Polynomial through both ends and the four nodes of a step, degree five ---- */
 
-/* The product of the nodes: that of (s - node_j) at both ends of the step. */
+/* The product of (s - node_j) at both ends of the step. */
 static const double QUINTIC_PRODUCT = 1.0 / 70.0;
 
 struct quintic {
@@ -52,6 +52,8 @@ static double quintic_value(const struct quintic *quintic, const struct quintic_
     return sum;
 }
 
+/* ---- Projection of the forces ---- */
+
 /* Gauss-Jacobi quadrature of x^(3/2) times polynomials up to the seventh degree on 0..1, the
  * weights over x^(3/2); all numbers to 20 digits from the moments. */
 enum { POINTS = 4 };
@@ -60,8 +62,8 @@ static const double PLACE[POINTS] = {0.1728253493870498751, 0.451700677970741074
 static const double WEIGHT[POINTS] = {0.23787837491065878419, 0.30319276806623797758,
                                       0.26331982728830153484, 0.13224647234779446794};
 
-/* The secant rule from the straight line between two nodes, which is within 1e-2 of the step: to
- * the last change whose square is rounding, or a billionth of the step. */
+/* The secant rule starts from the straight line between two nodes, which is within 1e-2 of the
+ * step. After a change this small its error is rounding, or a billionth of the step. */
 enum { ZERO_ROUNDS = 4 };
 static const double SMALL_CHANGE = 1e-6;
 
@@ -78,8 +80,8 @@ static double slope_around(const struct step_values *values, double s)
            (to - from);
 }
 
-/* Where the polynomial is zero, near what straight lines say; `sense`: 1 where it rises there, -1
- * where it falls. */
+/* The zero of the polynomial near `straight`, that of straight lines; `sense`: 1 where it rises
+ * there, -1 where it falls. */
 static double find_zero(const struct step_values *values, double straight, double sense)
 {
     const struct quintic quintic = quintic_through(values->start, values->nodes, values->end);
@@ -111,10 +113,10 @@ double step_ends_touch(const struct step_values *values)
     return values->start < 0.0 ? find_zero(values, step_values_closing(values), 1.0) : 0.0;
 }
 
-/* With the force F at the places s_q, weights w_q and Gauss's weights W_j of the nodes, whose
- * Lagrange polynomials are orthogonal: force_j = sum_q w_q F_q L_j(s_q)/W_j. The indentation d is
- * that of the approach, d + c F, which is as smooth as a motion; d itself is not where c is large.
- */
+/* With the force F at the places s_q, their weights w_q and the nodes' Gauss weights W_j and
+ * orthogonal Lagrange polynomials L_j: force_j = sum_q w_q F_q L_j(s_q)/W_j. The indentation d
+ * comes from the approach d + c F, which is as smooth as a motion; d itself is not where c is
+ * large. */
 static void project(const struct step_end *step, double from, double length, double force[NODES])
 {
     const double *nodes = step->values.nodes;
@@ -134,7 +136,7 @@ static void project(const struct step_end *step, double from, double length, dou
         const struct quintic_basis basis = quintic_basis_at(from + length * PLACE[q]);
         double d = quintic_value(&local, &basis);
         double f = contact_law_force(step->law, d, &stiffness);
-        /* once by Newton's method */
+        /* one round of Newton's method for d + c F */
         f -= stiffness * (d + c * f - quintic_value(&whole, &basis)) / (1.0 + c * stiffness);
         f *= fabs(length) * WEIGHT[q];
         for (int j = 0; j < NODES; j++)
@@ -184,6 +186,8 @@ bool step_ends_project_all(const struct scene *scene, const struct contact_start
     }
     return any;
 }
+
+/* ---- Values of a step ---- */
 
 double step_values_closing(const struct step_values *values)
 {

@@ -9,7 +9,7 @@
 
 #include "impact/oscillator.h"
 
-/* Frequencies and ratios of 0. */
+/* A set with all frequencies and ratios 0. */
 static struct oscillators *allocate(size_t count)
 {
     struct oscillators *set = calloc(1, sizeof *set);
@@ -94,7 +94,7 @@ struct oscillators *oscillators_undamped(struct oscillators *set)
     return set->undamped;
 }
 
-/* What lies mode after mode. */
+/* Number of arrays over the modes. */
 static size_t array_count(bool damped)
 {
     return 2 * NODES + 4 + 2 * NODES + (damped ? LOSS_TERMS : 0);
@@ -150,8 +150,8 @@ static struct angle difference_of(struct angle a, struct angle b)
                           a.sine * b.cosine - a.cosine * b.sine};
 }
 
-/* What undamped modes are carried by: half a step, the nodes from its middle, and the turns to
- * other middles. */
+/* Angles of an undamped mode: half a step, the nodes from its middle, and the turns to other
+ * middles. */
 struct swing {
     struct angle half, pair[NODES / 2], whole, shorter, longer;
 };
@@ -176,7 +176,7 @@ static void fill_turn(double *term, double omega, struct angle angle)
     term[2 * LANES] = -omega * angle.sine;
 }
 
-/* The terms of an undamped mode whose forces' effect at the end is known. */
+/* The terms of an undamped mode; force_q and force_v of the table are filled. */
 static void fill_middle(struct step_table *table, double omega, const struct swing *swing, size_t k)
 {
     double *term = table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
@@ -188,8 +188,8 @@ static void fill_middle(struct step_table *table, double omega, const struct swi
     for (int pair = 0; pair < NODES / 2; pair++) {
         term[(MIDDLE_COSINE + pair) * LANES] = swing->pair[pair].cosine;
         term[(MIDDLE_SINE + pair) * LANES] = swing->pair[pair].sine / omega;
-        /* what the forces of the pair do until the end, turned back by half a step; of the sum only
-         * the even part is left, of the difference the odd one */
+        /* the effect of the pair's forces at the end, turned back by half a step; the sum has only
+         * the even part left, the difference only the odd one */
         double q[2];
         double v[2];
         for (int side = 0; side < 2; side++) {
@@ -233,7 +233,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     double to_q[NODES + 2];
     double to_v[NODES + 2];
     double *response = table->response + k * RESPONSE_TERMS;
-    /* at the nodes: of the motion before, and of forces there */
+    /* at the nodes: by the motion before, and by the forces at the nodes */
     for (int i = 0; i < NODES; i++) {
         oscillator_map(set->omega[k], set->damping[k], h, collocation.node[i], to_q, to_v);
         table->node_q[i][k] = to_q[0];
@@ -252,7 +252,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
         table->force_q[j][k] = to_q[j + 2];
         table->force_v[j][k] = to_v[j + 2];
     }
-    /* what damping takes */
+    /* the damping loss */
     if (set->most_damping > 0.0) {
         double form[LOSS_INPUTS][LOSS_INPUTS];
         oscillator_loss_form(set->omega[k], set->damping[k], h, form);
@@ -265,7 +265,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     }
 }
 
-/* The oscillators from `first` to `count` of a level's table. */
+/* Fills in the oscillators range[0] to range[1] of a level's table. */
 static void fill(struct step_table *table, const struct oscillators *set, int level,
                  const size_t range[2])
 {
@@ -286,8 +286,8 @@ static void gather_middle(double *to, size_t i, const double *from, size_t k)
         to[term * LANES] = from[term * LANES];
 }
 
-/* The numbers of a part's oscillators from `first` to `count` are the whole's: array after array,
- * as they lie in its block, and terms. A damped whole has none of undamped modes. */
+/* Copies the oscillators range[0] to range[1] of a part from the whole's table: array after array,
+ * as they lie in its block, and terms. A damped whole has no terms of undamped modes. */
 static void gather(struct step_table *table, const struct oscillators *part, int level,
                    const size_t range[2])
 {
@@ -321,7 +321,7 @@ static const struct step_table *table_of_first(struct oscillators *set, size_t c
     const size_t range[] = {set->filled[level], count};
     if (!table || range[0] >= count)
         return table;
-    /* from the whole, which has them first */
+    /* a part: fill the whole, then copy */
     if (set->whole) {
         if (!table_of_first(set->whole, set->which[count - 1] + 1, level))
             return NULL;

@@ -58,8 +58,8 @@ struct oscillators {
     size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
     double *turns[STEP_LEVELS];             /* made on first use, see flight_kernel.h */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
-    struct oscillators *whole;              /* those that these are a part of; NULL: of none */
-    size_t *which;                          /* [count] of a part: index among the whole's */
+    struct oscillators *whole;              /* the set of which this is a part; NULL: none */
+    size_t *which;                          /* [count] of a part: index in the whole */
 };
 
 /* Copies the frequencies; with one damping ratio for all, or one of each. NULL: out of memory. */
@@ -72,10 +72,11 @@ void oscillators_free(struct oscillators *set);
  * bits, gathered from the whole's, which must outlive them. NULL: out of memory. */
 struct oscillators *oscillators_part(struct oscillators *whole, const size_t *which, size_t count);
 
-/* The same without damping, its own where it has none; belongs to it. NULL: out of memory. */
+/* The same set without damping: `set` itself where it has none, else owned by it. NULL: out of
+ * memory. */
 struct oscillators *oscillators_undamped(struct oscillators *set);
 
-/* The ladder is by the bits of a double: this is in the inner loop. */
+/* The ladder uses the bits of a double: this is in the inner loop. */
 union step_bits {
     double value;
     uint64_t bits;
@@ -89,7 +90,7 @@ static inline double step_length(int level)
     return power.value;
 }
 
-/* The finest level whose step is not longer than h >= 0; clamped to the ladder. */
+/* The coarsest level with a step not longer than h >= 0; clamped to the ladder. */
 static inline int step_level(double h)
 {
     union step_bits length = {.value = h};
@@ -100,8 +101,8 @@ static inline int step_level(double h)
 /* The table of a level, computed when first asked for. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);
 
-/* Makes sure that there is one for the first `count`, and asks before it makes it, which takes
- * milliseconds. INTERNAL: out of memory; TIMEOUT: the pace stopped it. */
+/* Makes sure that a level's table has the first `count`. Asks the pace before it fills them, which
+ * takes milliseconds. INTERNAL: out of memory; TIMEOUT: the pace stopped it. */
 enum percuss_status oscillators_prepare(struct oscillators *set, size_t count, int level,
                                         struct pace *pace);
 
