@@ -14,17 +14,17 @@
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;
 
-/* What every source meets on a step: the law's stiffness K at the nodes, 1 + M K with the coupling
- * M, and the flight before it. */
+/* Data of a step for all sources: the law's stiffness K at the nodes, the factors of 1 + M K with
+ * the coupling M, and the flight before the step. */
 struct path_step {
     double stiffness[NODES];
     struct node_factors factors;
-    double impulse; /* of the answer */
+    double impulse; /* of the solution */
     double flight;  /* s; 0: none */
     double **turns; /* see motion_turn_tables */
 };
 
-/* What forces do to approaches on a step of a level: row i at node i, as contact_step's. */
+/* Coupling from forces to approaches on a step of a level: row i at node i, as contact_step's. */
 struct path_level {
     double coupling[STEP_POINTS][NODES];
 };
@@ -38,12 +38,12 @@ struct tangent_path {
     struct arena *arena;
 };
 
-/* What the source does by itself on a step of a level: row i at node i. */
+/* Direct effect of the source on a step of a level: row i at node i. */
 struct level_table {
     double own[NODES][NODES];
 };
 
-/* What the change is in one order: of the motion, of the forces on this step, of the impulse of the
+/* The changes of one order: of the motion, of the forces on this step, of the impulse of the
  * sub-impact under way. */
 struct course {
     struct motion motion;
@@ -88,8 +88,8 @@ static bool calm(struct tangent_path *path, const struct scene *scene)
     return true;
 }
 
-/* What a unit force at node j does to the approach at node i: rigid bodies, series compliance and
- * modes, whose tables are ready. */
+/* Decrease of the approach at node i by a unit force at node j: rigid bodies, series compliance and
+ * modes. The tables of the level are ready. */
 static void find_coupling(const struct scene *scene, int level, double m[STEP_POINTS][NODES])
 {
     double h = step_length(level);
@@ -106,7 +106,7 @@ static void find_coupling(const struct scene *scene, int level, double m[STEP_PO
     }
 }
 
-/* The same of the path's steps of a level. NULL: out of memory. */
+/* The coupling of the path's steps of a level. NULL: out of memory. */
 static const struct path_level *find_level(struct tangent_path *path, int level)
 {
     struct path_level **at = &path->levels[level];
@@ -126,7 +126,7 @@ static inline double impulse_of(const double force[NODES], double h)
                 (weight[2] * force[2] + weight[3] * force[3]));
 }
 
-/* A step, which begins `free` after the one before it. False: out of memory. */
+/* Adds a step that begins `free` after the one before it. False: out of memory. */
 static bool lay_step(struct tangent_path *path, const struct force_step *step, double free,
                      struct path_step *to)
 {
@@ -182,9 +182,8 @@ static void differentiate(double first[NODES][NODES], double second[NODES][NODES
         }
 }
 
-/* What the source takes from the approach at node i by a unit force at node j, whose coupling is
- * that of the level: its inertia and viscosity by the cubic's derivatives, its force by the
- * coupling. NULL: out of memory. */
+/* Decrease of the approach at node i by the source under a unit force at node j: its inertia and
+ * viscosity by the cubic's derivatives, its force by the level's coupling. NULL: out of memory. */
 static const struct level_table *find_table(struct follower *follower, int level)
 {
     const struct tangent_source *source = follower->source;
@@ -208,13 +207,13 @@ static const struct level_table *find_table(struct follower *follower, int level
     return follower->tables[level] = table;
 }
 
-/* Two nodes of all. */
+/* A pair with one number in both lanes. */
 static inline node_pair pair_of(double number)
 {
     return (node_pair){number, number};
 }
 
-/* Rows i and i + 1 of a table by the forces at the nodes. */
+/* Products of rows i and i + 1 of a table with the forces at the nodes. */
 static inline node_pair rows_by(const double (*rows)[NODES], int i, const double force[NODES])
 {
     const node_pair low = NODE_CONST_PAIR(force);
@@ -224,8 +223,8 @@ static inline node_pair rows_by(const double (*rows)[NODES], int i, const double
     return FOLD_BOTH(one, next);
 }
 
-/* The change of the approaches at the nodes by what was before the step, less what `rows` take by
- * the forces. */
+/* Change of the approaches at the nodes by the motion before the step, less `rows` times the
+ * forces. */
 static void find_approaches(const struct scene *scene, struct course *course, int level,
                             const double (*rows)[NODES], const double force[NODES],
                             double approach[NODES])
@@ -242,15 +241,15 @@ static void find_approaches(const struct scene *scene, struct course *course, in
     }
 }
 
-/* The motion under the forces of the step, and what they add to the impulse. */
+/* Moves on by the forces of the step and adds their impulse. */
 static inline void move_on(const struct scene *scene, struct course *course, double h)
 {
     carrier_take(&course->carrier, scene, &course->motion, course->force);
     course->impulse += impulse_of(course->force[0], h);
 }
 
-/* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
- * the forces F and G F to the approach, (1 + M K) d = approach - G F, and F changes by K d + f. */
+/* With the law's stiffness K at the nodes, the coupling M and the source's effects f F on the
+ * forces F and G F on the approach: (1 + M K) d = approach - G F, and F changes by K d + f F. */
 static void solve_first(struct follower *follower, const struct level_table *table,
                         const struct force_step *step, const struct path_step *slopes,
                         double d[NODES])
@@ -274,8 +273,8 @@ static void solve_first(struct follower *follower, const struct level_table *tab
  *
  *   F'' = K d'' + g,  g = K' d'^2 + 2 f F' - f^2 F,  (1 + M K) d'' = approach'' - M g - 2 c F'
  *
- * where K' = K/(2 d) by a law like d^(3/2). It has no bound where contacts begin and end, but is
- * integrable: what the nodes miss of it there is some tenth of a step. */
+ * where K' = K/(2 d) by a law like d^(3/2). It is unbounded where contacts begin and end, but
+ * integrable: the nodes miss some tenth of a step of it there. */
 static void solve_second(struct follower *follower, const struct force_step *step,
                          const struct path_step *slopes, const double d[NODES])
 {
@@ -321,7 +320,7 @@ static bool take_step(struct follower *follower, const struct force_step *step,
     return true;
 }
 
-/* Free motion from sub-impact to sub-impact. */
+/* Moves freely from sub-impact to sub-impact. */
 static void fly(const struct scene *scene, struct course *course, const struct path_step *step)
 {
     carrier_leave(&course->carrier, scene, &course->motion);

@@ -1,39 +1,37 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a small change of a contact does to a solution of it, to first order or to second: the
- * linearised equations along the forces that were taken down, through all of its sub-impacts. Laws
- * begin and end without stiffness, so that the instants of touch and release need no terms of their
- * own. */
+/* Sensitivity of a solution to a small change of its contact, to first order or to second: the
+ * linearised equations along the logged forces, through all sub-impacts. Laws begin and end without
+ * stiffness, so that the instants of touch and release need no terms of their own. */
 #ifndef PERCUSS_IMPACT_TANGENT_H
 #define PERCUSS_IMPACT_TANGENT_H
 
 #include "impact/force_log.h"
 #include "impact/motion.h"
 
-/* The change. */
+/* The change of the contact. */
 struct tangent_source {
     double force;      /* logarithm of the law's force */
     double compliance; /* in series, m/N */
-    /* what answers a slow force F with a displacement -viscosity F' - inertia F'': m s/N, m s^2/N
-     */
+    /* of a displacement -viscosity F' - inertia F'' under a slow force F: m s/N, m s^2/N */
     double viscosity, inertia;
-    bool curved; /* to second order, too: of force and compliance, by a law like d^(3/2) */
+    bool curved; /* to second order, too: only force and compliance, a law like d^(3/2) */
 };
 
-/* What it does. */
+/* The effect of the change. */
 struct tangent {
-    double impulse;       /* to the contact's, N s */
-    double curvature;     /* its second derivative by the size of the change; 0: not asked for */
-    double largest;       /* the largest of what the first is after each sub-impact */
-    double strain;        /* largest change of a sub-impact's impulse, by either order, over that
-                             impulse: they are enough where it is far below 1; INFINITY: it could not
-                             be followed */
-    struct motion motion; /* of the scene at the end of the last contact, by the first */
+    double impulse;   /* change of the contact's, N s */
+    double curvature; /* its second derivative by the size of the change; 0: not asked for */
+    double largest;   /* largest magnitude of `impulse` after a sub-impact */
+    double strain; /* largest change of a sub-impact's impulse, by either order, over that impulse:
+                      the orders suffice where it is far below 1; INFINITY: the steps could not be
+                      followed */
+    struct motion motion; /* change of the motion at the end of the last contact, first order */
 };
 
-/* What every source meets along the log of a solution of the scene by impact_modal: one contact,
- * which did not yield. From the arena, as scene and log are; NULL: out of memory. */
+/* Data common to all sources along the log of a solution by impact_modal, of a scene with one
+ * contact that did not yield. It lies in the arena, like scene and log; NULL: out of memory. */
 struct tangent_path;
 struct tangent_path *tangent_path_create(const struct scene *scene, const struct force_log *log,
                                          struct arena *arena);
@@ -43,7 +41,7 @@ struct tangent_path *tangent_path_create(const struct scene *scene, const struct
 enum percuss_status tangent_follow(struct tangent_path *path, const struct tangent_source *source,
                                    struct pace *pace, struct tangent *tangent);
 
-/* Energy of what it does to the vibration of a body, J, after a source of unit size. */
+/* Energy of the change of a body's vibration, J, for a source of unit size. */
 double tangent_vibration(const struct tangent_path *path, const struct tangent *tangent,
                          size_t body);
 

@@ -14,7 +14,7 @@
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;
 
-/* Share of the group's largest impulse against which sub-impacts with less of it are held. */
+/* Changes of smaller sub-impacts are related to this share of the group's largest impulse. */
 static const double GRAZE = 0.05;
 
 /* One change on its way through the log. */
@@ -22,7 +22,7 @@ struct way {
     const struct tangent_source *source; /* [contact] */
     struct motion motion;                /* the change of it */
     struct carrier carrier;
-    double (*target)[STEP_POINTS]; /* [contact], that of the approaches by what was before */
+    double (*target)[STEP_POINTS]; /* [contact], that of the approaches by the motion before */
     double (*force)[NODES];        /* [contact], that of the forces on this step */
     double *change;                /* [contact], of the impulse of the sub-impact under way */
 };
@@ -37,10 +37,10 @@ struct follower {
     struct tangent_group *tangent; /* [count] */
     double *total;                 /* [contact], impulse of the sub-impact under way */
     bool lost;                     /* a step could not be followed */
-    double least;                  /* that a sub-impact's change is held against, N s */
+    double least;                  /* reference impulse of small sub-impacts, N s */
     /* of the step under way, [contact] */
     double (*stiffness)[NODES], (*slack)[NODES]; /* of the laws, K and F/K */
-    struct node_linear linear;                   /* of those that bear a force */
+    struct node_linear linear;                   /* of contacts with a force */
 };
 
 /* The scene at rest. */
@@ -100,7 +100,7 @@ static double impulse_of(const double force[NODES], double h)
     return h * sum;
 }
 
-/* The largest impulse of a contact. */
+/* The largest impulse of a contact. `sum`, [contact], is scratch and becomes 0. */
 static double largest_impulse(const struct force_log *log, double *sum)
 {
     double largest = 0.0;
@@ -116,8 +116,8 @@ static double largest_impulse(const struct force_log *log, double *sum)
     return largest;
 }
 
-/* What a source takes from a contact's approach at the nodes, by the derivatives of the force's
- * cubic. That of its law's force comes by way of the forces. */
+/* Subtracts the direct effect of a source from a contact's approach at the nodes, by the
+ * derivatives of the force's cubic. The change of the law's force acts through the forces. */
 static void take_own(const struct tangent_source *source, double h, const double force[NODES],
                      double approach[STEP_POINTS])
 {
@@ -137,7 +137,7 @@ static void take_own(const struct tangent_source *source, double h, const double
     }
 }
 
-/* Changes of the approaches at the nodes by what was before the step. */
+/* Changes of the approaches at the nodes by the motion before the step. */
 static void find_targets(const struct follower *follower, struct way *way, int level)
 {
     double h = step_length(level);
@@ -151,9 +151,9 @@ static void find_targets(const struct follower *follower, struct way *way, int l
     }
 }
 
-/* With the stiffness K, the coupling M, the law's own share f of the forces F and what the source
- * does besides, G F, the forces change by K d + f F = K x, and (1 + M K) x = target - G F + f F/K.
- */
+/* With the stiffness K, the coupling M, the change f F of the law's forces F and the source's other
+ * effects G F on the approach, the forces change by K d + f F = K x, and (1 + M K) x = target - G F
+ * + f F/K. */
 static void find_right(struct follower *follower, size_t which, const struct force_step *step)
 {
     struct way *way = &follower->way[which];
@@ -271,7 +271,7 @@ enum percuss_status tangent_group_follow(const struct tangent_group_task *task, 
     if (!follower)
         return PERCUSS_INTERNAL;
     memset(tangent, 0, task->count * sizeof *tangent);
-    memset(follower, 0, offsetof(struct follower, linear)); /* which each step fills */
+    memset(follower, 0, offsetof(struct follower, linear)); /* `linear` is filled by each step */
     follower->arena = arena;
     follower->pace = pace;
     follower->count = task->count;

@@ -1,15 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* As tangent.h, of several contacts (up to COUPLING_FEW), which feel each other: the linearised
- * equations along the forces of all of them, for small changes of all of them at once. */
+/* As tangent.h, for several coupled contacts (up to COUPLING_FEW): the linearised equations along
+ * the forces of all of them, for small changes of all of them at once. */
 #ifndef PERCUSS_IMPACT_TANGENT_GROUP_H
 #define PERCUSS_IMPACT_TANGENT_GROUP_H
 
 #include "impact/node_solver.h"
 #include "impact/tangent.h"
 
-/* Changes that are followed side by side: what they share is worked out once. */
+/* Changes that are followed side by side: their common data are computed once. */
 enum { TANGENT_GROUP_MOST = NODE_LINEAR_RIGHT };
 
 struct tangent_group_task {
@@ -19,11 +19,11 @@ struct tangent_group_task {
     const struct tangent_source *source[TANGENT_GROUP_MOST]; /* [contact] */
 };
 
-/* What a change does. */
+/* The effect of a change. */
 struct tangent_group {
-    double impulse[PERCUSS_MAX_CONTACTS]; /* to each contact's, N s */
+    double impulse[PERCUSS_MAX_CONTACTS]; /* change of each contact's, N s */
     /* Largest change of a sub-impact's impulse over that impulse, or over a small share of the
-     * group's largest impulse, since grazes come and go; INFINITY: it could not be followed */
+     * group's largest impulse, since grazes come and go; INFINITY: a step could not be followed */
     double strain;
 };
 

@@ -13,7 +13,7 @@
 enum { MOST_INSTANTS = 4096, MOST_VALUES = 16384, LEAST_INSTANTS = 256 };
 /* A step of a contact phase is shown in 2^FINER parts, in fewer where most would be dropped. */
 enum { FINER = 3, DROPPED = 4 };
-/* A flight is shown in this share of the contact phase before, which is what excites its modes. */
+/* A flight is shown in this share of the contact phase before, as that excited its modes. */
 static const double PHASE_SHARE = 1.0 / 16.0;
 enum { LEAST_FLIGHT = 32, MOST_FLIGHT = 1500 };
 
@@ -72,7 +72,7 @@ static bool create(struct tracer *tracer, struct arena *arena)
     return true;
 }
 
-/* Drops every second instant; from now on as many fewer are kept. */
+/* Drops every second instant; from now on half as many are kept. */
 static void thin(struct tracer *tracer)
 {
     struct trace *trace = tracer->trace;
@@ -95,8 +95,8 @@ static void thin(struct tracer *tracer)
     tracer->stride *= 2;
 }
 
-/* Where the contact point of one side is along the normal, and how fast. The residual flexibility
- * follows the force at once; its rate is left out. */
+/* Displacement and velocity of one side's contact point along the normal. The residual flexibility
+ * follows the force at once; its rate is omitted. */
 static void move_of_side(const struct tracer *tracer, size_t c, int s, const double *force,
                          double *displacement, double *velocity)
 {
@@ -109,7 +109,7 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     *displacement = *velocity = NAN;
     if (!sides->w[s])
         return;
-    /* what the forces did to the rigid body, and do to the residual flexibility */
+    /* the motion of the rigid body and of the residual flexibility by the forces */
     double x = 0.0;
     double v = 0.0;
     for (size_t j = 0; j < scene->contacts; j++) {
@@ -135,7 +135,7 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     *velocity = sides->velocity[s][c] + fall * t + sign * v;
 }
 
-/* Takes the present instant down. */
+/* Records the present instant. */
 static void sample(struct tracer *tracer, const double *force, const double *indentation)
 {
     struct trace *trace = tracer->trace;
@@ -242,7 +242,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
             return false;
         sample(tracer, tracer->none, tracer->none);
     }
-    /* what is left is shorter than a step */
+    /* the rest is shorter than a step */
     double left = end - tracer->now.time;
     for (size_t c = 0; c < tracer->scene->contacts; c++)
         tracer->travel[c] += left * tracer->impulse[c];
@@ -258,7 +258,7 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
     double phase = 0.0;
     for (size_t i = 0; i < log->count && log->steps[i].start < end; i++) {
         const struct force_step *logged = &log->steps[i];
-        /* what is shorter than a step is rounding, not a flight */
+        /* a flight shorter than a share of the step is rounding */
         if (logged->start - tracer->now.time > NO_FLIGHT * step_length(logged->level)) {
             if (!show_flight(tracer, logged->start, phase))
                 return false;
@@ -270,7 +270,7 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
     }
     if (!show_flight(tracer, end, phase))
         return false;
-    /* the last instant is not one that is dropped */
+    /* the last instant is always kept */
     tracer->skip = 0;
     sample(tracer, tracer->none, tracer->none);
     return true;
