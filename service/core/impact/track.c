@@ -33,12 +33,12 @@ void track_open(struct track *track, double time, double gap_rate)
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
 
-/* The peak of a polynomial of degree five: from a start so far within the step, rounds of Newton's
- * method, of which each squares the error. */
+/* Newton's method for the peak of a polynomial of degree five: the start is so far within the step,
+ * and each round squares the error. */
 static const double WITHIN = 0.05;
 enum { PEAK_ROUNDS = 4 };
 
-/* A step whose largest value is below this share of the contact's is past the peak: the polynomial
+/* A step with a largest value below this share of the contact's is past the peak: the polynomial
  * rises by less between the points. */
 static const double PAST_PEAK = 0.999;
 
@@ -65,8 +65,8 @@ static void differentiate(const double place[POINTS], const double divided[POINT
     }
 }
 
-/* Where that polynomial is largest around point i, kept between the neighbouring points; *peak
- * becomes its value there. */
+/* Place of that polynomial's largest value around point i, between the neighbouring points; *peak
+ * becomes the value. */
 static double peak_around(const double place[POINTS], const double value[POINTS], int i,
                           double *peak)
 {
@@ -77,7 +77,7 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
     double s = fmin(fmax(place[i], WITHIN), 1.0 - WITHIN);
     memcpy(divided, value, sizeof divided);
     divide(place, divided);
-    /* a root of its slope, as far as it is bent downward */
+    /* a root of its slope, while its second derivative is negative */
     differentiate(place, divided, s, d);
     for (int round = 0; round < PEAK_ROUNDS && d[2] < 0.0; round++) {
         s = fmin(fmax(s - d[1] / d[2], low), high);
@@ -87,7 +87,8 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
     return d[0] > value[i] ? s : place[i];
 }
 
-/* The peak of a step that does not end with its largest indentation, if it is the contact's. */
+/* Finds the peak of a step that does not end with its largest indentation, and records it if it is
+ * the contact's largest. */
 static void find_peak(struct sub_impact *open, double time, double h,
                       const struct track_values *values, double deepened)
 {
@@ -113,8 +114,8 @@ static void find_peak(struct sub_impact *open, double time, double h,
     }
 }
 
-/* What omitted inertia and viscosity would do: int K' F' dt and int F'^2 dt by the derivatives of
- * the nodes' polynomials. */
+/* Adds the effect of omitted inertia and viscosity: int K' F' dt and int F'^2 dt by the derivatives
+ * of the nodes' polynomials. */
 static void add_omitted(struct track *track, double h, const struct track_values *values)
 {
     node_pair low = {0.0, 0.0};
@@ -147,7 +148,7 @@ void track_step(struct track *track, double time, double h, const struct track_v
     }
     impulse *= h;
     track->moment += time * impulse + h * h * later;
-    /* the largest indentation: where it still rises the end will do, the next step looks closer */
+    /* the largest indentation: while it rises, the step's end; a later step finds the peak */
     if (values->end > before && values->end + track->deepened > open->max_indentation) {
         open->max_indentation = values->end + track->deepened;
         open->compression_end = time + h;

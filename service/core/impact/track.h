@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The list of sub-impacts as they happen. */
+/* List of the sub-impacts of a contact, kept during the solution. */
 #ifndef PERCUSS_IMPACT_TRACK_H
 #define PERCUSS_IMPACT_TRACK_H
 
@@ -21,11 +21,11 @@ struct track {
     double moment;           /* of the force over time from the stated instant, N s^2 */
     double end_time;         /* of the last one */
     struct sub_impact open;  /* the one under way */
-    /* what omitted inertia and viscosity would do: integrals of K' F' (N^2/(m s)) and of F'^2
-     * (N^2/s) over all of them, K the law's stiffness */
+    /* effect of omitted inertia and viscosity: integrals of K' F' (N^2/(m s)) and of F'^2 (N^2/s)
+     * over all of them, K the law's stiffness */
     double inertia, viscosity;
-    double deepened; /* m: by how much the dent did so since then; indentations in the list count
-                        from its bottom at the first touch */
+    double deepened; /* growth of the dent since the touch, m; indentations in the list count from
+                        its bottom at that touch */
 };
 
 /* Memory from the arena. False: out of memory. */

@@ -21,32 +21,32 @@ bool yielding_create(struct yielding *yielding, struct arena *arena)
     return yielding->event != NULL;
 }
 
-/* The errors of the two below are then an eighth and a quarter of the accuracy. */
+/* Gives near_peak and near_kink errors of an eighth and a quarter of the accuracy. */
 static const double NEARNESS = 0.5;
 
-/* An event is placed anew by the motion at the end of a step if it is this many such steps ahead:
- * nearer, a parabola has it. */
+/* An event up to this many steps ahead is placed anew by the motion at the end of the step: there a
+ * parabola is accurate. */
 static const double FORESIGHT = 2.0;
 
-/* The motion tells the peak this many times as near as a step must end to it: it may lie as far
- * behind as it may lie ahead, and has been placed anew meanwhile. */
+/* The present motion gives the peak within this many times the distance at which a step must end:
+ * the peak may lie behind or ahead, and has been placed anew meanwhile. */
 static const double AROUND_PEAK = 2.0;
 
-/* Unloading that begins a time t late, or early, gives a force wrong by its slope's jump times the
- * travel, a t^2/2, for that time: the impulse is wrong by about (t/duration)^3. The duration is
- * that of unloading where it is shorter: a deep dent springs back by next to nothing, at once. */
+/* If unloading begins a time t late or early, the force has an error of the slope's jump times the
+ * travel a t^2/2 during that time: the impulse has one of about (t/duration)^3. The duration is
+ * that of unloading where it is shorter: a deep dent springs back by very little, at once. */
 static double near_peak(const struct yielding *yielding, double duration)
 {
     return NEARNESS * cbrt(yielding->accuracy) * duration;
 }
 
-/* Where reloading comes back to the virgin curve the travel is v t: (t/duration)^2. */
+/* Where reloading comes back to the virgin curve the travel is v t: the error is (t/duration)^2. */
 static double near_kink(const struct yielding *yielding, double duration)
 {
     return NEARNESS * sqrt(yielding->accuracy) * duration;
 }
 
-/* Rate of the cubic through the nodes, a parabola. */
+/* Coefficients of the derivative of the cubic through the nodes, a parabola. */
 static void find_rate(const double values[NODES], double rate[3])
 {
     memset(rate, 0, 3 * sizeof *rate);
@@ -146,11 +146,11 @@ static double duration_of(const struct yielding *yielding, size_t contact)
     return shortest;
 }
 
-/* Of the limit, which is a difference of depths: half a bit of each of them and of their sums. */
+/* Relative rounding of the limit, a difference of depths: half a bit of each and of their sums. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 
-/* A peak is met to the third power of its nearness: one that exceeds the limit by less is the same
- * again, and so is one that the rounding of a deep dent sets apart. */
+/* Whether an indentation exceeds the limit. A peak is accurate to the third power of its nearness:
+ * one that exceeds the limit by less, or by the rounding of a deep dent, is the same peak again. */
 static bool exceeds(const struct yielding *yielding, size_t contact, double indentation)
 {
     const struct contact_law *law = &yielding->scene->laws[contact];
@@ -189,7 +189,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double rise = fmax(0.0, path.rise);
     double dent = law->history.dent;
     double place;
-    /* what was expected on this step is looked for anew */
+    /* an event expected on this step is searched again */
     if (yielding->event[contact].time < time + h)
         yielding->event[contact].kind = EVENT_NONE;
     /* reloading comes back to the virgin curve */
@@ -199,7 +199,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, limit});
 
-    /* the curve has a joint, which the only contact passes (modal.c) */
+    /* the curve has a joint; a single contact may pass it (modal.c) */
     within = near_peak(yielding, duration);
     double start = fmax(path.value[0] + rise * within + dent, law->history.max_indentation);
     double joint = law->operations->curve->joint(law, start) - dent;
@@ -208,8 +208,8 @@ static void expect(struct yielding *yielding, size_t contact, double h)
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, joint});
 
-    /* loading beyond the limit ends; what falls from there already has turned between two steps, by
-     * less than rounding lets either of them see */
+    /* loading beyond the limit ends; an indentation that already falls from there turned between
+     * two steps, by less than the rounding of either */
     if (path.rise <= 0.0 && exceeds(yielding, contact, path.value[0])) {
         path.turns = true;
         path.peak = 0.0;
@@ -231,7 +231,7 @@ static double rise_time(const struct contact_start *now, double target)
     return under >= 0.0 && root > 0.0 ? 2.0 * left / root : INFINITY;
 }
 
-/* The expected event from the motion at its present end, once a step that ends there came near. */
+/* Places the expected event anew by the present motion, after a step that ended near it. */
 static void correct(struct yielding *yielding, size_t contact)
 {
     struct yielding_event *event = &yielding->event[contact];
@@ -273,9 +273,9 @@ static void yield(struct yielding *yielding, size_t contact, double indentation)
     yielding->now[contact].indentation -= deeper;
 }
 
-/* The largest indentation of a contact that is near its peak. The motion at this instant tells,
- * unless its deceleration changes on the way to the peak: then the step that has the peak in it
- * does (`seen`), or the dent would be lost. False: it is not near. */
+/* The largest indentation of a contact that is near its peak, by the motion at this instant. If the
+ * deceleration changes before the peak, the step that contains the peak gives it (`seen`), or the
+ * dent would be lost. False: the peak is not near. */
 static bool find_peak(const struct yielding *yielding, size_t contact, bool seen, double *peak)
 {
     const struct contact_start *now = &yielding->now[contact];
@@ -286,8 +286,8 @@ static bool find_peak(const struct yielding *yielding, size_t contact, bool seen
     return near || seen;
 }
 
-/* The expected event is here. True: the law yielded; otherwise an indentation is passed, or the
- * largest one stayed below the limit after all. */
+/* Takes the expected event. True: the law yielded; false: an indentation is passed, or the largest
+ * one stayed below the limit. */
 static bool take(struct yielding *yielding, size_t contact, bool seen)
 {
     struct yielding_event *event = &yielding->event[contact];
@@ -300,7 +300,7 @@ static bool take(struct yielding *yielding, size_t contact, bool seen)
     return yields;
 }
 
-/* Steps as long as before the approach. */
+/* Restores the level of the steps before the approach. */
 static void resume(struct yielding *yielding, int *level)
 {
     if (yielding->approaching)
@@ -346,7 +346,7 @@ bool yielding_meet(struct yielding *yielding, double h, int *level)
         double left = event->time - yielding->outcome->motion.time;
         if (event->kind == EVENT_NONE)
             continue;
-        /* what lies behind is of the step just made; ahead, maybe of one that was not made */
+        /* a past event is of the accepted step; a coming one maybe of a rejected step */
         bool seen = left <= 0.0;
         if (!is_due(yielding, c) && left <= FORESIGHT * h)
             correct(yielding, c);

@@ -15,7 +15,7 @@
 #include "impact/impact.h"
 #include "impact/impact_scale.h"
 
-/* What is expected of a contact: a step must end near it. */
+/* An expected event of a contact: a step must end near it. */
 struct yielding_event {
     enum {
         EVENT_NONE,
@@ -23,11 +23,11 @@ struct yielding_event {
         EVENT_PEAK     /* the largest indentation, from which on the contact unloads */
     } kind;
     double time;        /* s */
-    double within;      /* how near, s */
-    double indentation; /* that is passed; of the peak, on the step that has it; m */
+    double within;      /* the step's end must be this near, s */
+    double indentation; /* the passed one; that of the peak on its step; m */
 };
 
-/* What it looks at belongs to the contact phase. */
+/* The contact phase owns the data behind the pointers. */
 struct yielding {
     const struct scene *scene; /* with the laws of the outcome */
     struct impact_outcome *outcome;
@@ -38,26 +38,26 @@ struct yielding {
     double accuracy;
     bool any; /* a law can yield; false: nothing below is used */
 
-    struct yielding_event *event; /* [contact], the first one */
-    bool approaching;             /* an event, by shorter steps ... */
-    int resume;                   /* ... than those of this level before */
+    struct yielding_event *event; /* [contact], the first expected */
+    bool approaching;             /* shorter steps lead to an event; */
+    int resume;                   /* the level before them */
 };
 
-/* The first members are set. False: out of memory. */
+/* The members down to `accuracy` are set. False: out of memory. */
 bool yielding_create(struct yielding *yielding, struct arena *arena);
 
-/* The level of the next step: expected events are not passed. */
+/* The level of the next step, which passes no expected event. */
 int yielding_level(const struct yielding *yielding, int level);
 
 /* Looks for events on the step of length h just solved. True: one would be passed, the step must be
  * solved again, at *level. */
 bool yielding_passes(struct yielding *yielding, double h, int *level);
 
-/* After a step of length h was accepted: laws whose event has come yield, their dents deepen and
- * gaps and indentations count from the new bottom. True: *level is that of before. */
+/* After a step of length h was accepted: laws at their peak yield, their dents deepen and gaps and
+ * indentations count from the new bottom. True: *level is that before the approach. */
 bool yielding_meet(struct yielding *yielding, double h, int *level);
 
-/* The window ends within a contact that is being loaded: what was dissipated so far. */
+/* At the window's end contacts under load yield up to their present indentation. */
 void yielding_end(struct yielding *yielding);
 
 #endif
