@@ -49,8 +49,8 @@ struct march_method {
 bool march_create(struct march *march, struct arena *arena);
 
 /* Goes through the impact. PERCUSS_OK (also where no touch was found behind an overlap: see
- * outcome->always_overlapped), TIMEOUT where the pace stopped it, or why it failed: the outcome
- * then says nothing. */
+ * outcome->always_overlapped), TIMEOUT where the pace stopped it, or why it failed: the outcome is
+ * then invalid. */
 enum percuss_status march_run(struct march *march, const struct march_method *method, void *state,
                               struct arena *arena);
 
@@ -89,8 +89,7 @@ enum rewind_end {
 
 /* The latest touch before the motion's instant, for a contact that overlaps now, along the motion
  * that motion_rewind takes: *time < 0, s, where it touched. Bodies at rest but for their rigid
- * motion: any time ago; vibrating ones: within `longest`, and `beyond` says where that was not
- * enough to know. */
+ * motion: any time ago; vibrating ones: within `longest`, `beyond` if that was too short. */
 enum rewind_end rewind_find(struct rewind *rewind, const struct scene *scene,
                             const struct motion *motion, size_t contact, double *time);
 

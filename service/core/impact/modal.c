@@ -410,7 +410,7 @@ struct modal_run {
  * contact as long as this share of the horizon. */
 static const double SLOWEST_SHARE = 0.01;
 
-/* A step goes at most this share of the way to where a contact would open as it moves now. */
+/* A step covers at most this share of the time until a contact opens by its present motion. */
 static const double SHARE_TO_OPENING = 0.85;
 
 /* A contact that opens without speed in a group has no scale of its own: its roughness counts
@@ -423,9 +423,9 @@ static const double LONGER_ROUGHER = 8.0;
 static const double TOO_ROUGH = 3.0;
 
 enum {
-    /* Roughness may ask for more than events do, as a graze is shorter than its scale: by 2^11. */
+    /* Levels that roughness may add: a graze may be 2^11 shorter than its scale. */
     GRAZE_LEVELS = 11,
-    /* A step takes two or three iterations; so many more cost as much as one more. */
+    /* A step takes two or three iterations; so many iterations count as one more step. */
     ITERATIONS_PER_STEP = 8
 };
 

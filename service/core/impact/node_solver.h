@@ -6,8 +6,8 @@
  *   e_ai(d) = d_ai + sum_bj coupling_ab,ij F_b(d_bj) - target_ai = 0
  *
  * for contact a at node i. Newton's method, (1 + coupling F') change = e, d -= change, contact by
- * contact: within one short step others hardly matter, so that each takes its own change and the
- * others' forces as they were. Where they matter, all contacts at once. */
+ * contact: within one short step the coupling between contacts is weak, so that each uses the
+ * others' forces of the iteration before. Where it is strong, all contacts are solved at once. */
 #ifndef PERCUSS_IMPACT_NODE_SOLVER_H
 #define PERCUSS_IMPACT_NODE_SOLVER_H
 
@@ -38,8 +38,8 @@ static inline double node_solver_last_change(double accuracy)
 }
 
 /* [contact][node]: `indentation` holds starting values and becomes the solution, `force` belongs to
- * it, `stiffness` to the values before its last change. False: no convergence, as far as contacts
- * are taken one by one: the values are then of no use. Adds to *iterations. */
+ * it, `stiffness` to the values before its last change. False: no convergence with contacts taken
+ * one by one; the values are then invalid. Adds to *iterations. */
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations);
 
@@ -64,7 +64,7 @@ struct node_linear_row {
 
 struct node_linear {
     size_t count;                 /* contacts */
-    size_t contact[COUPLING_FEW]; /* which they are */
+    size_t contact[COUPLING_FEW]; /* their indices in the scene */
     struct node_linear_row row[NODE_LINEAR_ROWS];
 };
 
@@ -73,7 +73,8 @@ struct node_linear {
 void node_linear_fill(struct node_linear *linear, const struct coupling *coupling, int level,
                       double (*const stiffness)[NODES]);
 
-/* Solves it. False: the coupling is too strong for elimination in the order of the nodes. */
+/* Solves the equations. False: the coupling is too strong for elimination in the order of the
+ * nodes. */
 bool node_linear_solve(struct node_linear *linear);
 
 #endif

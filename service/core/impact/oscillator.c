@@ -18,7 +18,7 @@ double complex oscillator_lambda(double omega, double damping)
 /* Largest exponent of growth when damping runs backward: squares stay finite. */
 static const double LARGEST_EXPONENT = 300.0;
 
-/* |z c| from which on moments are found upward, see oscillator_moments. */
+/* From this |z c| on the moments are found by upward recurrence, see oscillator_moments. */
 static const double LARGE = 3.0;
 
 /* Terms of the series of small_moments to the last bit, by |z c|^2: |z c|^k 4!/(4 + k)! < 1e-17. */

@@ -110,7 +110,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     double energy = 0.5 * speed * speed / w;
     double touch = scene->gap[0] / speed;
     double closed = 0.0;
-    /* bodies that part as fast as they met */
+    /* the bodies separate at the speed of their approach */
     impact_begin(outcome, scene);
     motion_start(&outcome->motion, scene);
     outcome->time_shift = touch;

@@ -55,9 +55,9 @@ struct oscillators {
     double *omega;                          /* ascending, rad/s; 0 beyond count */
     double *damping;                        /* ratio of each; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* made on first use, */
-    size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
+    size_t filled[STEP_LEVELS];             /* number of first oscillators in it */
     double *turns[STEP_LEVELS];             /* made on first use, see flight_kernel.h */
-    struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
+    struct oscillators *undamped;           /* the same frequencies; NULL: not made yet */
     struct oscillators *whole;              /* the set of which this is a part; NULL: none */
     size_t *which;                          /* [count] of a part: index in the whole */
 };
@@ -98,7 +98,7 @@ static inline int step_level(double h)
     return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
 }
 
-/* The table of a level, computed when first asked for. NULL: out of memory. */
+/* The table of a level, computed on first use. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);
 
 /* Makes sure that a level's table has the first `count`. Asks the pace before it fills them, which

@@ -249,7 +249,7 @@ static inline void move_on(const struct scene *scene, struct course *course, dou
 }
 
 /* With the law's stiffness K at the nodes, the coupling M and the source's effects f F on the
- * forces F and G F on the approach: (1 + M K) d = approach - G F, and F changes by K d + f F. */
+ * forces F and G F on the approach: (1 + M K) d = approach - G F; F changes by K d + f F. */
 static void solve_first(struct follower *follower, const struct level_table *table,
                         const struct force_step *step, const struct path_step *slopes,
                         double d[NODES])

@@ -22,7 +22,7 @@ struct tangent_source {
 /* The effect of the change. */
 struct tangent {
     double impulse;   /* change of the contact's, N s */
-    double curvature; /* its second derivative by the size of the change; 0: not asked for */
+    double curvature; /* its second derivative by the size of the change; 0: not requested */
     double largest;   /* largest magnitude of `impulse` after a sub-impact */
     double strain; /* largest change of a sub-impact's impulse, by either order, over that impulse:
                       the orders suffice where it is far below 1; INFINITY: the steps could not be

@@ -39,11 +39,11 @@ struct trace_task {
     const struct trace_sides *sides;
     double shift;    /* s; < 0: the motion starts before the stated instant */
     double end;      /* s */
-    double max_work; /* see impact_settings: where it is spent the histories end */
+    double max_work; /* see impact_settings; the histories end when it is spent */
     struct pace *pace;
 };
 
-/* Samples the motion behind the log: contact phases in eighths of the solution's steps, flights by
+/* Samples the motion of the log: contact phases in eighths of the solution's steps, flights by
  * the length of the phase before; not more than some thousand instants, the first one always.
  * Memory from the arena. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
 enum percuss_status trace_make(const struct trace_task *task, struct arena *arena,
