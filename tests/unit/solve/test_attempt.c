@@ -117,7 +117,7 @@ static void begins_below_the_tolerance(void **state)
     near_relative(attempt_first_accuracy(1e-3, false, false), 1e-4, 1e-12);
     near_relative(attempt_first_accuracy(1e-3, true, false), 1e-5, 1e-12);
     near_relative(attempt_first_accuracy(1e-4, true, false), 1e-7, 1e-12);
-    near_relative(attempt_first_accuracy(9e-5, true, false), 9e-7, 1e-12);
+    near_relative(attempt_first_accuracy(6e-5, true, false), 6e-7, 1e-12);
     near_relative(attempt_first_accuracy(1e-4, true, true), 1e-7, 1e-12);
     near_relative(attempt_first_accuracy(1e-8, false, false), 1e-11, 1e-12);
     near_relative(attempt_first_accuracy(0.5, true, false), 1e-5, 1e-12);

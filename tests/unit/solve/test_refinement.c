@@ -158,7 +158,7 @@ static void first_order_stands_for_solutions(void **state)
     static const struct {
         double tolerance;
         bool followed;
-    } cases[] = {{1e-2, true}, {1e-3, true}, {1e-4, true}, {9e-5, false}};
+    } cases[] = {{1e-2, true}, {1e-3, true}, {1e-4, true}, {6e-5, false}};
     struct search *search = search_create();
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct solve_request request =
