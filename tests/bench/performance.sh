@@ -52,7 +52,7 @@ request to problem|formulate problem_create|
 scenes (modes, couplings)|attempt_assemble|
 contact steps|contact_phase|
 flights|march_run|contact_phase energy_audit
-first order along the answer|tangent_follow|
+first order along the answer|sensitivity_follow|
 audit of the energy|energy_audit|
 answer (report)|report_fill|
 PARTS

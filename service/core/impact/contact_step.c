@@ -47,7 +47,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_force = step->approach + n;
     step->end_indentation = step->end_force + n;
     return coupling_create(&step->coupling, scene, arena) &&
-           carrier_create(&step->carrier, scene, arena);
+           midpoint_create(&step->midpoint, scene, arena);
 }
 
 /* Approaches at the nodes and the end if no force acted on this step. */
@@ -55,7 +55,7 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
                             const struct motion *motion, int level)
 {
     double h = step_length(level);
-    carrier_enter(&step->carrier, scene, motion, level, step->target);
+    midpoint_enter(&step->midpoint, scene, motion, level, step->target);
     for (size_t c = 0; c < scene->contacts; c++) {
         double *target = step->target[c];
         double gap = motion->gap[c];
@@ -72,12 +72,12 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
-    carrier_take(&step->carrier, scene, motion, step->force);
+    midpoint_take(&step->midpoint, scene, motion, step->force);
 }
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
-    carrier_leave(&step->carrier, scene, motion);
+    midpoint_leave(&step->midpoint, scene, motion);
 }
 
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
@@ -254,7 +254,7 @@ bool contact_local_indentation(const struct scene *scene, const double *approach
 }
 
 /* Indentations at the nodes by the start's Taylor series. */
-static void foresee(struct contact_step *step, size_t contact, const struct contact_start *from,
+static void predict(struct contact_step *step, size_t contact, const struct contact_start *from,
                     double h)
 {
     double *to = step->indentation[contact];
@@ -298,11 +298,11 @@ static bool find_end(struct contact_step *step, const struct scene *scene, int l
                       step->end_force, step->matrix);
 }
 
-static void foresee_all(struct contact_step *step, size_t contacts,
+static void predict_all(struct contact_step *step, size_t contacts,
                         const struct contact_start *start, int level)
 {
     for (size_t c = 0; c < contacts; c++)
-        foresee(step, c, &start[c], step_length(level));
+        predict(step, c, &start[c], step_length(level));
 }
 
 /* Solves all at once, from the start again. */
@@ -315,7 +315,7 @@ static enum contact_step_end solve_together(struct contact_step *step,
         step->together = arena_reserve(step->arena, unknowns * unknowns, sizeof(double));
     if (!step->together)
         return STEP_MEMORY;
-    foresee_all(step, problem->scene->contacts, start, problem->level);
+    predict_all(step, problem->scene->contacts, start, problem->level);
     return node_solve_together(problem, step->together, step->indentation, step->force,
                                step->stiffness, &step->iterations)
                ? STEP_SOLVED
@@ -335,7 +335,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     }
     /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
-    foresee_all(step, scene->contacts, start, level);
+    predict_all(step, scene->contacts, start, level);
     /* forces and indentations at the nodes */
     const struct node_problem problem = {
         .scene = scene,
@@ -350,7 +350,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         if (end != STEP_SOLVED)
             return end;
     }
-    if (step->carrier.damped)
+    if (step->midpoint.damped)
         step->loss = contact_step_loss(scene, motion, level, step->force);
     return find_end(step, scene, level) ? STEP_SOLVED : STEP_UNSOLVED;
 }

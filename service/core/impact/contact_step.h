@@ -9,8 +9,8 @@
 #include <stdbool.h>
 
 #include "base/watch.h"
-#include "impact/carrier.h"
 #include "impact/coupling.h"
+#include "impact/midpoint.h"
 
 struct contact_step {
     double (*indentation)[NODES]; /* [contact] local, at the nodes */
@@ -21,7 +21,7 @@ struct contact_step {
     unsigned long iterations;   /* Newton's, since creation */
     double last_change;         /* relative, see node_solver.h */
 
-    struct carrier carrier;
+    struct midpoint midpoint;
     struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */
     double (*taken)[STEP_POINTS];  /* their reductions by the forces */

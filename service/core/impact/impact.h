@@ -13,17 +13,17 @@
 #include "impact/track.h"
 
 /* Care that a solution needs for its accuracy. */
-enum impact_care {
+enum step_profile {
     /* later sub-impacts amplify the step errors of the first ones */
-    IMPACT_CARE_SEQUENCE,
+    STEP_PROFILE_SEQUENCE,
     /* a sequence for comparison with another: contacts begin and end by short steps, not by
      * projected moments (step_ends.h), so that the two do not miss the same sub-impact */
-    IMPACT_CARE_BESIDE,
+    STEP_PROFILE_COMPARED,
     /* one impact: nothing later is amplified */
-    IMPACT_CARE_SINGLE,
+    STEP_PROFILE_SINGLE,
     /* only estimates another solution's error */
-    IMPACT_CARE_ROUGH,
-    IMPACT_CARES
+    STEP_PROFILE_ROUGH,
+    STEP_PROFILES
 };
 
 struct impact_settings {
@@ -33,7 +33,7 @@ struct impact_settings {
                         each feels)^2 + 2 contacts^2 + 6 contacts */
     struct force_log *log; /* records the contact forces; NULL: none. Only impact_modal */
     struct pace *pace;     /* NULL: nothing stops it; otherwise the status may be PERCUSS_TIMEOUT */
-    enum impact_care care; /* of impact_modal's steps */
+    enum step_profile profile; /* of impact_modal's steps */
 };
 
 /* Everything here lives in the arena given to impact_create. */

@@ -45,8 +45,8 @@ static const double RESOLVED = 4.0;
 static const double COUPLING = 3.2;
 static const double CLOSEST = 0.25;
 
-/* Limits of steps for one level of care. */
-struct care_limits {
+/* Limits of steps for one profile. */
+struct profile_limits {
     double roughness;                      /* factor of accuracy^(2/5) */
     double event, opening;                 /* of accuracy^(1/2) */
     double roughest;                       /* their largest values: beyond these a force is */
@@ -58,21 +58,21 @@ struct care_limits {
  * determine it: the first and last one may be twice as long before e changes as much. With the
  * steps of a single impact three times as many sequences would be accepted but wrong. Rough
  * solutions of sequences of three were within 3e-3 of careful ones. */
-static const struct care_limits cares[IMPACT_CARES] = {
-    [IMPACT_CARE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
-    [IMPACT_CARE_BESIDE] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},
-    [IMPACT_CARE_SINGLE] = {0.8, 17.0, 42.0, 0.05, 0.2, 0.7},
-    [IMPACT_CARE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
+static const struct profile_limits profiles[STEP_PROFILES] = {
+    [STEP_PROFILE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
+    [STEP_PROFILE_COMPARED] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},
+    [STEP_PROFILE_SINGLE] = {0.8, 17.0, 42.0, 0.05, 0.2, 0.7},
+    [STEP_PROFILE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
 };
 
-/* For several contacts with a sequence's care, which open and close all the time: a step that
+/* For several contacts with a sequence's profile, which open and close all the time: a step that
  * misses the beginning or the end of a force like t^(3/2) adds little to the total error. On 400
  * random groups on beams and as many rows of spheres, at accuracies of 1e-4 to 1e-9, these leave
  * the error of a sequence's limits with two thirds to four fifths of the steps. */
-static const struct care_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
+static const struct profile_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
 /* For a comparison solution: its first and last steps of a contact are longer than the projected
  * ones (below), as with equal steps both solutions have the same error. */
-static const struct care_limits several_beside = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
+static const struct profile_limits several_compared = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
 
 /* Whether a scene has several contacts and none yields: yielding depends on the largest force and
  * needs more care. */
@@ -85,13 +85,13 @@ static bool is_elastic_group(const struct scene *scene)
 }
 
 static struct step_limits step_limits_make(const struct scene *scene, double accuracy,
-                                           enum impact_care care)
+                                           enum step_profile profile)
 {
-    bool sequence = care == IMPACT_CARE_SEQUENCE || care == IMPACT_CARE_BESIDE;
+    bool sequence = profile == STEP_PROFILE_SEQUENCE || profile == STEP_PROFILE_COMPARED;
     bool together = sequence && is_elastic_group(scene);
-    const struct care_limits *limits = &cares[care];
+    const struct profile_limits *limits = &profiles[profile];
     if (together)
-        limits = care == IMPACT_CARE_BESIDE ? &several_beside : &several;
+        limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
     return (struct step_limits){
@@ -112,23 +112,23 @@ struct projected_ends {
     double end; /* factor of accuracy^(3/10) */
     double longest_event, longest_opening;
 };
-static const struct projected_ends projected[IMPACT_CARES] = {
-    [IMPACT_CARE_SEQUENCE] = {4.0, 0.125, 0.125},
-    [IMPACT_CARE_SINGLE] = {12.6, 0.4, 0.7},
-    [IMPACT_CARE_ROUGH] = {12.6, 0.4, 0.7},
+static const struct projected_ends projected[STEP_PROFILES] = {
+    [STEP_PROFILE_SEQUENCE] = {4.0, 0.125, 0.125},
+    [STEP_PROFILE_SINGLE] = {12.6, 0.4, 0.7},
+    [STEP_PROFILE_ROUGH] = {12.6, 0.4, 0.7},
 };
 
-/* For several contacts with a sequence's care, which begin and end anywhere on each other's steps:
- * the roughness of the others bounds these steps too. On 200 random groups on beams, at tolerances
- * of 1e-3 and 1e-4, these leave the error of steps an eighth as long with plain ends. */
+/* For several contacts with a sequence's profile, which begin and end anywhere on each other's
+ * steps: the roughness of the others bounds these steps too. On 200 random groups on beams, at
+ * tolerances of 1e-3 and 1e-4, these leave the error of steps an eighth as long with plain ends. */
 static const struct projected_ends projected_several = {16.0, 0.25, 0.25};
 
-static bool may_project(const struct scene *scene, enum impact_care care)
+static bool may_project(const struct scene *scene, enum step_profile profile)
 {
     for (size_t c = 0; c < scene->contacts; c++)
         if (!scene->laws[c].operations->three_halves)
             return false;
-    return care != IMPACT_CARE_BESIDE && (scene->contacts == 1 || is_elastic_group(scene));
+    return profile != STEP_PROFILE_COMPARED && (scene->contacts == 1 || is_elastic_group(scene));
 }
 
 /* Allows longer first and last steps where their forces may be projected (step_ends.h): for a
@@ -136,11 +136,11 @@ static bool may_project(const struct scene *scene, enum impact_care care)
 static void step_limits_project(struct step_limits *limits, const struct scene *scene,
                                 const struct impact_settings *settings)
 {
-    enum impact_care care = settings->care;
-    if (!may_project(scene, care))
+    enum step_profile profile = settings->profile;
+    if (!may_project(scene, profile))
         return;
-    bool together = scene->contacts > 1 && care == IMPACT_CARE_SEQUENCE;
-    const struct projected_ends *ends = together ? &projected_several : &projected[care];
+    bool together = scene->contacts > 1 && profile == STEP_PROFILE_SEQUENCE;
+    const struct projected_ends *ends = together ? &projected_several : &projected[profile];
     double share = ends->end * pow(settings->accuracy, 0.3);
     limits->plain[0] = limits->event_share;
     limits->plain[1] = limits->opening_share;
@@ -762,6 +762,7 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
                                       .most = impact_max_steps(scene, settings),
                                       .pace = settings->pace},
                             .settings = settings,
-                            .limits = step_limits_make(scene, settings->accuracy, settings->care)};
+                            .limits =
+                                step_limits_make(scene, settings->accuracy, settings->profile)};
     return run_create(&run, arena) ? march_run(&run.march, &method, &run, arena) : PERCUSS_INTERNAL;
 }

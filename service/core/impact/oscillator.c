@@ -27,7 +27,7 @@ static const struct {
     int terms;
 } SERIES[] = {{2.5e-5, 6}, {2.5e-3, 8}, {6.25e-2, 11}, {0.5625, 15}, {2.25, 19}, {INFINITY, 25}};
 
-/* Products without the standard's care for infinite factors, of which there are none here. */
+/* Products without the standard's profile for infinite factors, of which there are none here. */
 static inline double complex times(double complex a, double complex b)
 {
     return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b),

@@ -642,7 +642,7 @@ enum percuss_status report_trace(const struct problem *problem, const struct sol
                                        .max_work = trace_work(solution),
                                        .log = &log,
                                        .pace = pace,
-                                       .care = solution->step_care};
+                                       .profile = solution->step_profile};
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
         settings.accuracy = fmin(settings.accuracy, TRACE_CLOSED_FORM);

@@ -98,7 +98,7 @@ static void solution_conclude(const struct attempt_context *context, const struc
     solution->log = attempt_is_followed(context, best) ? best->log : NULL;
     solution->path = best->path;
     solution->step_accuracy = best->accuracy;
-    solution->step_care = best->care;
+    solution->step_profile = best->profile;
     /* an attempt cut off by its effort takes all that was left, but for a step */
     double allowed = attempt_work_allowed(context->problem->request->options.method);
     solution->spent = context->work < SPENT * allowed;
@@ -132,7 +132,7 @@ static enum percuss_status solution_search(struct attempt_context *context,
     /* steps as the tolerance asks for to begin with, and as many modes */
     struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
                                                               problem->contact_count > 1),
-                           .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
+                           .profile = sequence ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
     enum percuss_status status = refine_modes(context, &best, &solution->error.modes);
     if (status)
         return status;
@@ -169,7 +169,7 @@ static enum percuss_status solution_run(struct attempt_context *context,
 {
     bool sequence = refinement_expects_sequence(context->problem);
     struct attempt attempt = {.accuracy = model->accuracy,
-                              .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
+                              .profile = sequence ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
     if (!solution->scene && !make_scene(context->problem, model, solution))
         return PERCUSS_INTERNAL;
     enum percuss_status status = attempt_run(context, &attempt, solution->scene);

@@ -19,16 +19,16 @@ struct solution_model {
 
 /* By a model only `scene`, `assembly`, `outcome` and `revised` are filled. */
 struct solution {
-    const struct scene *scene;     /* of the answer, in the problem's arena */
-    struct impact_outcome outcome; /* the answer */
-    bool revised;                  /* the problem was formulated anew on the way */
-    struct assembly *assembly;     /* of the scene */
-    const struct force_log *log;   /* of the answer where first order says something of it; NULL */
-    struct tangent_path *path;     /* along it, if it was asked for on the way; NULL */
-    double step_accuracy;          /* that it was solved with, see impact_settings */
-    enum impact_care step_care;    /* the same */
-    struct error_budget error;     /* of modes and steps; those of models and states come later */
-    double restitution_by_speed;   /* NAN unless asked for */
+    const struct scene *scene;      /* of the answer, in the problem's arena */
+    struct impact_outcome outcome;  /* the answer */
+    bool revised;                   /* the problem was formulated anew on the way */
+    struct assembly *assembly;      /* of the scene */
+    const struct force_log *log;    /* of the answer where first order says something of it; NULL */
+    struct sensitivity_path *path;  /* along it, if it was asked for on the way; NULL */
+    double step_accuracy;           /* that it was solved with, see impact_settings */
+    enum step_profile step_profile; /* the same */
+    struct error_budget error;      /* of modes and steps; those of models and states come later */
+    double restitution_by_speed;    /* NAN unless asked for */
     bool tolerance_met;
     bool spent;     /* the effort allowed ended the search */
     double work;    /* that it left of it (impact.h) */

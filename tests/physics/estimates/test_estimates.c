@@ -91,8 +91,8 @@ static void scenes_are_drawn_again(void **state)
     lab_free(lab);
 }
 
-/* The references against numbers that are known (docs/lab/accuracy.md): a ball on the rod and on the
- * beam of the paper; and by CVODE. */
+/* The references against numbers that are known (docs/lab/accuracy.md): a ball on the rod and on
+ * the beam of the paper; and by CVODE. */
 static void references_settle_to_known_numbers(void **state)
 {
     (void)state;
@@ -124,7 +124,7 @@ static void references_settle_to_known_numbers(void **state)
 }
 
 /* Sequences whose answers were met and wrong while those beside them ended contacts in the same way
- * (IMPACT_CARE_BESIDE), and chains of blows whose sub-impacts trade impulse: the amplitudes that
+ * (STEP_PROFILE_COMPARED), and chains of blows whose sub-impacts trade impulse: the amplitudes that
  * they leave are wrong by much more than its sum. */
 static void what_agrees_by_chance_is_not_met(void **state)
 {

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/contact_step.c and node_solver.c: single steps against a fine Runge-Kutta
- * integration of the same equations, their order, and the local indentations. */
+/* Mirrors service/core/impact/contact_step.c and node_solver.c: single steps against a fine
+ * Runge-Kutta integration of the same equations, their order, and the local indentations. */
 #include "impact/contact_step.h"
 #include "unit/impact/toy_scene.h"
 

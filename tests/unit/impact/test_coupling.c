@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/coupling.c: which contacts feel each other, a block in closed form, the
- * sums of few and of many contacts against those of their blocks. */
+/* Mirrors service/core/impact/coupling.c: which contacts feel each other, a block in closed form,
+ * the sums of few and of many contacts against those of their blocks. */
 #include "impact/coupling.h"
 #include "unit/impact/toy_scene.h"
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/flight.c: the first touch of vibrating bodies, hidden double roots, and
- * the end, against a search that samples without mercy. */
+/* Mirrors service/core/impact/flight.c: the first touch of vibrating bodies, hidden double roots,
+ * and the end, against a search that samples without mercy. */
 #include "impact/flight.h"
 #include "unit/impact/toy_scene.h"
 

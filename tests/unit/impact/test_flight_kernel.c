@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/flight_kernel.c: bounds against sums written out, series and turns against
- * the exact motion of one oscillator after the other. */
+/* Mirrors service/core/impact/flight_kernel.c: bounds against sums written out, series and turns
+ * against the exact motion of one oscillator after the other. */
 #include <string.h>
 
 #include "check.h"

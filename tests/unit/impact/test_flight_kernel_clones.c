@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/flight_kernel.c: the vector unit chosen at start gives the bits of the
- * baseline. */
+/* Mirrors service/core/impact/flight_kernel.c: the vector unit chosen at start gives the bits of
+ * the baseline. */
 #include <string.h>
 
 #include "check.h"

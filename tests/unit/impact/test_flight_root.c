@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/flight_root.c: parabolas by their closed roots, touches of one oscillator
- * by arc cosine, grazes and misses of a picometre, several roots close together. */
+/* Mirrors service/core/impact/flight_root.c: parabolas by their closed roots, touches of one
+ * oscillator by arc cosine, grazes and misses of a picometre, several roots close together. */
 #include "impact/flight_root.h"
 #include "unit/impact/toy_scene.h"
 

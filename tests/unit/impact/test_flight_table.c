@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/flight_kernel.c: made once, for all modes of a set, and theirs only. */
+/* Mirrors service/core/impact/flight_kernel.c: made once, for all modes of a set, and theirs only.
+ */
 #include "impact/flight_kernel.h"
 
 #include "check.h"

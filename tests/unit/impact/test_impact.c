@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
- * both methods, with their scales, starts and audits. */
+/* Mirrors service/core/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys,
+ * by both methods, with their scales, starts and audits. */
 #include "impact/impact_scale.h"
 #include "impact/march.h"
 #include "unit/impact/toy_scene.h"
@@ -66,8 +66,8 @@ static void rounding_of_a_wide_gap_is_no_loss(void **state)
 }
 
 /* A Hertz contact of a rigid pair, wherever its length lies between two levels of the ladder: its
- * impulse 2 v/w as the accuracy says (see docs/lab/accuracy.md), in few steps: its beginning and its
- * end take no more of them than its middle (counted are 12, 14, 18, 23). */
+ * impulse 2 v/w as the accuracy says (see docs/lab/accuracy.md), in few steps: its beginning and
+ * its end take no more of them than its middle (counted are 12, 14, 18, 23). */
 static void a_contact_takes_few_steps(void **state)
 {
     (void)state;
@@ -90,21 +90,21 @@ static void a_contact_takes_few_steps(void **state)
         }
 }
 
-/* The same with a single blow's care in fewer of them, which leave no more (counted are 7, 7, 11,
- * 15); and roughly, within a hundredth. */
+/* The same with a single blow's profile in fewer of them, which leave no more (counted are 7, 7,
+ * 11, 15); and roughly, within a hundredth. */
 static void a_single_blow_takes_fewer_steps(void **state)
 {
     (void)state;
     static const struct {
         double accuracy;
-        enum impact_care care;
+        enum step_profile profile;
         unsigned long most;
         double left;
-    } cases[] = {{1e-3, IMPACT_CARE_SINGLE, 9, 4e-4},
-                 {1e-4, IMPACT_CARE_SINGLE, 10, 6.3e-5},
-                 {1e-5, IMPACT_CARE_SINGLE, 14, 1e-5},
-                 {1e-6, IMPACT_CARE_SINGLE, 19, 1.6e-6},
-                 {1e-3, IMPACT_CARE_ROUGH, 9, 1e-2}};
+    } cases[] = {{1e-3, STEP_PROFILE_SINGLE, 9, 4e-4},
+                 {1e-4, STEP_PROFILE_SINGLE, 10, 6.3e-5},
+                 {1e-5, STEP_PROFILE_SINGLE, 14, 1e-5},
+                 {1e-6, STEP_PROFILE_SINGLE, 19, 1.6e-6},
+                 {1e-3, STEP_PROFILE_ROUGH, 9, 1e-2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int k = 0; k < 8; k++) {
             struct toy toy;
@@ -112,7 +112,7 @@ static void a_single_blow_takes_fewer_steps(void **state)
             struct impact_settings settings = {.accuracy = cases[i].accuracy,
                                                .horizon = 1e3,
                                                .max_work = 1e9,
-                                               .care = cases[i].care};
+                                               .profile = cases[i].profile};
             toy_init(&toy, 1);
             toy.laws[0] = contact_law_hertz(1e8);
             toy.gap_rate[0] = -pow(32.0, k / 8.0);
@@ -127,7 +127,7 @@ static void a_single_blow_takes_fewer_steps(void **state)
 
 /* Contacts of a group that do not feel each other: each one's impulse is as exact as alone, and
  * that two others begin and end beside it takes few steps (counted are 19, 19, 22, 31; with a
- * sequence's care 24, 33, 40, 51). */
+ * sequence's profile 24, 33, 40, 51). */
 static void a_group_takes_few_steps(void **state)
 {
     (void)state;

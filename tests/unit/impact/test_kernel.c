@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/kernel.c: each loop against its sum written out, in any length of lanes.
+/* Mirrors service/core/impact/kernel.c: each loop against its sum written out, in any length of
+ * lanes.
  */
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/march.c: the order of flights and contact phases, why a march ends, its
- * books, and what stops it; with methods of contacts that turn every gap rate round at once. */
+/* Mirrors service/core/impact/march.c: the order of flights and contact phases, why a march ends,
+ * its books, and what stops it; with methods of contacts that turn every gap rate round at once. */
 #include "impact/march.h"
 #include "unit/impact/toy_scene.h"
 

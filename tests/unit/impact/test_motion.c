@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/motion.c and scene.c: the state between contacts and its exact motion. */
+/* Mirrors service/core/impact/motion.c and scene.c: the state between contacts and its exact
+ * motion. */
 #include "impact/oscillator.h"
 #include "unit/impact/toy_scene.h"
 

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/node_solver.c and node_factors.h: contacts one by one and all at once find
- * the same, which solves the equations; where contacts matter much to each other the first gives
- * up. */
+/* Mirrors service/core/impact/node_solver.c and node_factors.h: contacts one by one and all at once
+ * find the same, which solves the equations; where contacts matter much to each other the first
+ * gives up. */
 #include "impact/node_factors.h"
 #include "impact/node_solver.h"
 #include "unit/impact/toy_scene.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/oscillator.c: exact propagation against mpmath, against composition of
- * steps and against a brute integration. */
+/* Mirrors service/core/impact/oscillator.c: exact propagation against mpmath, against composition
+ * of steps and against a brute integration. */
 #include <string.h>
 
 #include "check.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/march.c: parabolas by their closed roots, one oscillator by arc cosine,
- * many of them by dense samples; and how much work that takes. */
+/* Mirrors service/core/impact/march.c: parabolas by their closed roots, one oscillator by arc
+ * cosine, many of them by dense samples; and how much work that takes. */
 #include "impact/march.h"
 #include "unit/impact/toy_scene.h"
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/step_table.c: the ladder of steps and tables that hold the oscillators'
- * maps bit by bit. */
+/* Mirrors service/core/impact/step_table.c: the ladder of steps and tables that hold the
+ * oscillators' maps bit by bit. */
 #include "check.h"
 #include "impact/oscillator.h"
 #include "impact/step_table.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/step_ends.c: begin and end of a contact on a straight line, and a cubic
- * that goes on. */
+/* Mirrors service/core/impact/step_ends.c: begin and end of a contact on a straight line, and a
+ * cubic that goes on. */
 #include "check.h"
 #include "impact/step_ends.h"
 

@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/track.c: sub-impacts from steps, their peaks, and lists that overflow. */
+/* Mirrors service/core/impact/track.c: sub-impacts from steps, their peaks, and lists that
+ * overflow. */
 #include "impact/track.h"
 #include "unit/impact/toy_scene.h"
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/yielding.c: impacts whose contacts yield, against the energy of a rigid
- * pair and against CVODE; order of the steps that end where a law's slope jumps. */
+/* Mirrors service/core/impact/yielding.c: impacts whose contacts yield, against the energy of a
+ * rigid pair and against CVODE; order of the steps that end where a law's slope jumps. */
 #include <float.h>
 
 #include "contact/law_closed_form.h"

@@ -1,21 +1,22 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/error/attempt.c: the care of a solution, when it is solved again, its first
- * steps; a truncated scene is as flexible, and its missing modes have the allowed effect. */
+/* Mirrors service/core/solve/error/attempt.c: the profile of its steps, when it is solved again,
+ * its first steps; a truncated scene is as flexible, and its missing modes have the allowed effect.
+ */
 #include "solve/error/attempt.h"
 #include "unit/solve/search_lab.h"
 
 static const double ACCURACY = 1e-4;
 
-/* An attempt at a request, its forces taken down, with a care; the work that it took. */
+/* An attempt at a request, its forces taken down, with a profile; the work that it took. */
 static double attempt_with(struct search *search, const struct solve_request *request,
-                           enum impact_care care, struct attempt *attempt)
+                           enum step_profile profile, struct attempt *attempt)
 {
     struct attempt_context *context = search_begin(search, request);
     double work = context->work;
     *attempt = (struct attempt){
-        .choice = {.cut = INFINITY, .most = 20}, .accuracy = ACCURACY, .care = care};
+        .choice = {.cut = INFINITY, .most = 20}, .accuracy = ACCURACY, .profile = profile};
     assert_int_equal(attempt_assemble(context, attempt), PERCUSS_OK);
     assert_int_equal(attempt_run_logged(context, attempt, &attempt->assembly->scene), PERCUSS_OK);
     return work - context->work;
@@ -30,22 +31,22 @@ static void a_single_blow_that_is_none_is_begun_again(void **state)
     struct solve_request request = search_on_beam(1e-3);
     struct attempt sequence;
     struct attempt single;
-    double once = attempt_with(search, &request, IMPACT_CARE_SEQUENCE, &sequence);
+    double once = attempt_with(search, &request, STEP_PROFILE_SEQUENCE, &sequence);
     assert_true(sequence.outcome.tracks[0].count > 1);
     double impulse = sequence.outcome.tracks[0].impulse;
     unsigned long steps = sequence.outcome.steps;
     size_t logged = sequence.log->count;
-    double both = attempt_with(search, &request, IMPACT_CARE_SINGLE, &single);
-    assert_int_equal(single.care, IMPACT_CARE_SEQUENCE);
+    double both = attempt_with(search, &request, STEP_PROFILE_SINGLE, &single);
+    assert_int_equal(single.profile, STEP_PROFILE_SEQUENCE);
     assert_true(single.outcome.tracks[0].impulse == impulse);
     assert_int_equal(single.outcome.steps, steps);
     assert_int_equal(single.log->count, logged);
     assert_true(both > 1.3 * once);
     /* without a log too */
-    struct attempt again = {.accuracy = ACCURACY, .care = IMPACT_CARE_SINGLE};
+    struct attempt again = {.accuracy = ACCURACY, .profile = STEP_PROFILE_SINGLE};
     again.assembly = single.assembly;
     assert_int_equal(attempt_run(&search->context, &again, &single.assembly->scene), PERCUSS_OK);
-    assert_int_equal(again.care, IMPACT_CARE_SEQUENCE);
+    assert_int_equal(again.profile, STEP_PROFILE_SEQUENCE);
     assert_true(again.outcome.tracks[0].impulse == impulse);
     search_free(search);
 }
@@ -59,11 +60,11 @@ static void a_single_blow_takes_fewer_steps(void **state)
     struct solve_request request = search_on_rod("rod", 1e-3);
     struct attempt sequence;
     struct attempt single;
-    attempt_with(search, &request, IMPACT_CARE_SEQUENCE, &sequence);
+    attempt_with(search, &request, STEP_PROFILE_SEQUENCE, &sequence);
     double impulse = sequence.outcome.tracks[0].impulse;
     unsigned long steps = sequence.outcome.steps;
-    attempt_with(search, &request, IMPACT_CARE_SINGLE, &single);
-    assert_int_equal(single.care, IMPACT_CARE_SINGLE);
+    attempt_with(search, &request, STEP_PROFILE_SINGLE, &single);
+    assert_int_equal(single.profile, STEP_PROFILE_SINGLE);
     assert_null(single.log);
     assert_true(single.outcome.steps < 0.8 * steps);
     near(single.outcome.tracks[0].impulse, impulse, attempt_steps_leave(ACCURACY) * impulse);
@@ -82,8 +83,8 @@ static void a_pressed_contact_takes_care(void **state)
             strike(sphere_spot("ball", 0.015), sphere_spot("ball", 0.015), speeds[i]);
         struct attempt attempt;
         request.contacts[0].gap_acceleration = -9.81;
-        attempt_with(search, &request, IMPACT_CARE_SINGLE, &attempt);
-        assert_int_equal(attempt.care, i ? IMPACT_CARE_SINGLE : IMPACT_CARE_SEQUENCE);
+        attempt_with(search, &request, STEP_PROFILE_SINGLE, &attempt);
+        assert_int_equal(attempt.profile, i ? STEP_PROFILE_SINGLE : STEP_PROFILE_SEQUENCE);
         assert_true(!attempt.log == (i == 1));
     }
     search_free(search);
@@ -97,12 +98,12 @@ static void a_rough_solution_is_cheap(void **state)
     struct solve_request request = search_on_beam(1e-3);
     struct attempt sequence;
     struct attempt rough;
-    attempt_with(search, &request, IMPACT_CARE_SEQUENCE, &sequence);
+    attempt_with(search, &request, STEP_PROFILE_SEQUENCE, &sequence);
     double impulse = sequence.outcome.tracks[0].impulse;
     unsigned long steps = sequence.outcome.steps;
     size_t count = sequence.outcome.tracks[0].count;
-    attempt_with(search, &request, IMPACT_CARE_ROUGH, &rough);
-    assert_int_equal(rough.care, IMPACT_CARE_ROUGH);
+    attempt_with(search, &request, STEP_PROFILE_ROUGH, &rough);
+    assert_int_equal(rough.profile, STEP_PROFILE_ROUGH);
     assert_int_equal(rough.outcome.tracks[0].count, count);
     assert_true(rough.outcome.steps < steps);
     near(rough.outcome.tracks[0].impulse, impulse, 1e-3 * impulse);

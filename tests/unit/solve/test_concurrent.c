@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/finite_element.c and service/core/impact/concurrent.c: the contact region solved
- * within the time integration. */
+/* Mirrors service/core/solve/finite_element.c and service/core/impact/concurrent.c: the contact
+ * region solved within the time integration. */
 #include "physics/support.h"
 
 static struct solve_result result;

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/contact_model.c: tables where there are some, what the reply says, several
- * contacts, elliptic ones, dents that are many. Tables are sampled from the closed form, whose
- * answer is known. */
+/* Mirrors service/core/solve/contact_model.c: tables where there are some, what the reply says,
+ * several contacts, elliptic ones, dents that are many. Tables are sampled from the closed form,
+ * whose answer is known. */
 #include "contact/law_closed_form.h"
 #include "physics/support.h"
 #include "unit/contact/sampled_table.h"

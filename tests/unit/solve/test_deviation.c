@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/error/deviation.c: shifted models are the same ones with other numbers. */
+/* Mirrors service/core/solve/error/deviation.c: shifted models are the same ones with other
+ * numbers. */
 #include "solve/error/deviation.h"
 #include "unit/solve/search_lab.h"
 

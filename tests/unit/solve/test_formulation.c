@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/formulation.c: gap rates, W and Eq. (4) from a request, and its refusals.
+/* Mirrors service/core/solve/formulation.c: gap rates, W and Eq. (4) from a request, and its
+ * refusals.
  */
 #include "physics/support.h"
 #include "solve/formulation.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/error/law.c: how much lower a restitution is for what materials lose of
- * themselves, against contacts that are integrated with it, and where it is said. */
+/* Mirrors service/core/solve/error/law.c: how much lower a restitution is for what materials lose
+ * of themselves, against contacts that are integrated with it, and where it is said. */
 #include "physics/support.h"
 
 #define ACRYLIC ((struct material){"acrylic", 3.2e9, 0.37, 1190.0, INFINITY, 0.0})

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/error/law.c: metals whose yield is not stated are told of with the yield
- * above which the answer holds, and the model's error holds what they give back where they yield
- * at young/500. */
+/* Mirrors service/core/solve/error/law.c: metals whose yield is not stated are told of with the
+ * yield above which the answer holds, and the model's error holds what they give back where they
+ * yield at young/500. */
 #include "contact/law_closed_form.h"
 #include "physics/support.h"
 

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/mode_choice.c: which modes of a mesh are left out, that the answer does not
- * notice, and where the body is expected to come back. */
+/* Mirrors service/core/solve/mode_choice.c: which modes of a mesh are left out, that the answer
+ * does not notice, and where the body is expected to come back. */
 #include "bodies/made_mesh.h"
 #include "model/bar.h"
 #include "model/mesh_surface.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/prepared.c: a hit and a miss give the same bits, growing keeps what scenes
- * point at, a new revision forgets. */
+/* Mirrors service/core/solve/prepared.c: a hit and a miss give the same bits, growing keeps what
+ * scenes point at, a new revision forgets. */
 #include <stdlib.h>
 
 #include "model/bar.h"

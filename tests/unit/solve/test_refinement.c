@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/error/refinement.c: which contacts are taken for sequences, and that the
- * errors of modes, of steps and of a sequence of sub-impacts are no less than the distance from a
- * solution with hundreds of modes or far shorter steps. */
+/* Mirrors service/core/solve/error/refinement.c: which contacts are taken for sequences, and that
+ * the errors of modes, of steps and of a sequence of sub-impacts are no less than the distance from
+ * a solution with hundreds of modes or far shorter steps. */
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
 #include "solve/error/refinement.h"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/solve/solution.c: tolerances that are met are, the same model gives the same bits
- * again, and the derivative is that of two solutions. */
+/* Mirrors service/core/solve/solution.c: tolerances that are met are, the same model gives the same
+ * bits again, and the derivative is that of two solutions. */
 #include "solve/solution.h"
 #include "unit/solve/search_lab.h"
 

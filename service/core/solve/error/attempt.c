@@ -30,7 +30,7 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
     return asked > 0.0 ? asked : fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
 }
 
-/* Once, with the attempt's care. */
+/* Once, with the attempt's profile. */
 static enum percuss_status run_once(struct attempt_context *context, struct attempt *attempt,
                                     const struct scene *scene, struct force_log *log)
 {
@@ -40,7 +40,7 @@ static enum percuss_status run_once(struct attempt_context *context, struct atte
         .max_work = context->work,
         .log = log,
         .pace = context->pace,
-        .care = attempt->care,
+        .profile = attempt->profile,
     };
     attempt->log = log;
     attempt->path = NULL;
@@ -80,17 +80,17 @@ static bool yields(const struct scene *scene)
 
 /* Longer steps than a sequence's are for laws that do not yield, as e depends on the largest force
  * else, which they miss; and a single impact's where it can be one. */
-static void choose_care(struct attempt *attempt, const struct scene *scene)
+static void choose_profile(struct attempt *attempt, const struct scene *scene)
 {
-    bool single = attempt->care == IMPACT_CARE_SINGLE;
+    bool single = attempt->profile == STEP_PROFILE_SINGLE;
     if (yields(scene) || (single && (scene->contacts > 1 || is_pressed(scene))))
-        attempt->care = IMPACT_CARE_SEQUENCE;
+        attempt->profile = STEP_PROFILE_SEQUENCE;
 }
 
-/* Whether a solution with a single impact's care is none: it closes again, or does not open. */
-static bool is_careless(const struct attempt *attempt)
+/* Whether a solution with a single impact's profile is none: it closes again, or does not open. */
+static bool needs_sequence(const struct attempt *attempt)
 {
-    if (attempt->care != IMPACT_CARE_SINGLE || attempt->outcome.always_overlapped)
+    if (attempt->profile != STEP_PROFILE_SINGLE || attempt->outcome.always_overlapped)
         return false;
     return attempt->outcome.tracks[0].count > 1 ||
            attempt->outcome.end_reason == PERCUSS_END_IN_CONTACT;
@@ -99,11 +99,11 @@ static bool is_careless(const struct attempt *attempt)
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene)
 {
-    choose_care(attempt, scene);
+    choose_profile(attempt, scene);
     enum percuss_status status = run_once(context, attempt, scene, NULL);
-    if (status || !is_careless(attempt))
+    if (status || !needs_sequence(attempt))
         return status;
-    attempt->care = IMPACT_CARE_SEQUENCE;
+    attempt->profile = STEP_PROFILE_SEQUENCE;
     return run_once(context, attempt, scene, NULL);
 }
 
@@ -113,12 +113,12 @@ enum percuss_status attempt_run_logged(struct attempt_context *context, struct a
     if (scene->contacts > COUPLING_FEW)
         return attempt_run(context, attempt, scene);
     /* a single impact needs none */
-    choose_care(attempt, scene);
-    if (attempt->care == IMPACT_CARE_SINGLE) {
+    choose_profile(attempt, scene);
+    if (attempt->profile == STEP_PROFILE_SINGLE) {
         enum percuss_status status = run_once(context, attempt, scene, NULL);
-        if (status || !is_careless(attempt))
+        if (status || !needs_sequence(attempt))
             return status;
-        attempt->care = IMPACT_CARE_SEQUENCE;
+        attempt->profile = STEP_PROFILE_SEQUENCE;
     }
     struct force_log *log = arena_take(context->arena, 1, sizeof *log);
     if (!log)

@@ -8,8 +8,8 @@
 #include "solve/assemble.h"
 #include "solve/outcome.h"
 
-struct neighbours;   /* neighbours.h */
-struct tangent_path; /* tangent.h */
+struct neighbours;       /* neighbours.h */
+struct sensitivity_path; /* sensitivity.h */
 
 /* The problem and the effort that all attempts at it share. */
 struct attempt_context {
@@ -25,9 +25,9 @@ struct attempt {
     double accuracy; /* of the time steps, see impact_settings */
     struct assembly *assembly;
     struct impact_outcome outcome;
-    const struct force_log *log; /* of that outcome; NULL: it was not recorded */
-    struct tangent_path *path;   /* along that log; NULL: not asked for yet */
-    enum impact_care care;       /* of the time steps; a sequence's where one was found */
+    const struct force_log *log;   /* of that outcome; NULL: it was not recorded */
+    struct sensitivity_path *path; /* along that log; NULL: not asked for yet */
+    enum step_profile profile;     /* of the time steps; a sequence's where one was found */
 };
 
 /* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
@@ -44,8 +44,8 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt);
 
 /* Solves a scene by the request's method: the attempt's own, or one derived from it. A solution
- * that was to be a single impact and is none is solved with a sequence's care: from the beginning
- * where several contacts, a law that yields or acceleration tell so, or else again. */
+ * that was to be a single impact and is none is solved with a sequence's profile: from the
+ * beginning where several contacts, a law that yields or acceleration tell so, or else again. */
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 
@@ -79,8 +79,8 @@ bool attempt_is_followed(const struct attempt_context *context, const struct att
  * the two do not err alike. */
 static inline void attempt_by_other_means(struct attempt *attempt)
 {
-    if (attempt->care == IMPACT_CARE_SEQUENCE)
-        attempt->care = IMPACT_CARE_BESIDE;
+    if (attempt->profile == STEP_PROFILE_SEQUENCE)
+        attempt->profile = STEP_PROFILE_COMPARED;
 }
 
 /* Whether steps can still be shortened: rounding may have left them a little above the finest. */

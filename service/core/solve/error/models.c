@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "contact/plastic.h"
-#include "impact/tangent_group.h"
+#include "impact/sensitivity_group.h"
 #include "solve/askew.h"
 #include "solve/contact_model.h"
 #include "solve/error/attempt.h"
@@ -106,7 +106,7 @@ static enum percuss_status solve_perturbed(struct perturbed *perturbed, const st
     double longest = scene->contacts > 1 ? PERTURBED_STEPS_GROUP : PERTURBED_STEPS;
     *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? longest : 0.0),
                                 .assembly = solution->assembly,
-                                .care = IMPACT_CARE_ROUGH};
+                                .profile = STEP_PROFILE_ROUGH};
     perturbed->context.work = allowed;
     enum percuss_status status = attempt_run(&perturbed->context, attempt, scene);
     perturbed->context.work += left - allowed;
@@ -281,12 +281,12 @@ static void single(const struct model_margin *margin, struct model_error *error)
 }
 
 /* All deviations of a contact's stiffness together, as they make it stiffer or softer. */
-static struct tangent_source source_of(const struct model_margin *margin, size_t c, double sign)
+static struct sensitivity_source source_of(const struct model_margin *margin, size_t c, double sign)
 {
     const struct deviation *deviation = &margin->deviation[c];
     struct stiffening stiffer = deviation_stiffening(deviation, &margin->impact[c]);
-    return (struct tangent_source){.force = sign * stiffer.force,
-                                   .compliance = sign * stiffer.compliance};
+    return (struct sensitivity_source){.force = sign * stiffer.force,
+                                       .compliance = sign * stiffer.compliance};
 }
 
 /* Effect of all deviations together, stiffer, by the orders along the answer. */
@@ -302,8 +302,8 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
 {
     const struct problem *problem = margin->problem;
     const struct solution *solution = margin->solution;
-    struct tangent_source source[2][PERCUSS_MAX_CONTACTS];
-    struct tangent_group tangent[2];
+    struct sensitivity_source source[2][PERCUSS_MAX_CONTACTS];
+    struct sensitivity_group tangent[2];
     struct scene scene;
     for (size_t c = 0; c < problem->contact_count; c++) {
         source[0][c] = source_of(margin, c, 1.0);
@@ -312,8 +312,8 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
     if (!attempt_truncate(problem, solution->scene, &solution->outcome, TRUNCATED_FIRST_ORDER,
                           &scene))
         return PERCUSS_INTERNAL;
-    const struct tangent_group_task task = {&scene, solution->log, 2, {source[0], source[1]}};
-    enum percuss_status status = tangent_group_follow(&task, problem->arena, pace, tangent);
+    const struct sensitivity_group_task task = {&scene, solution->log, 2, {source[0], source[1]}};
+    enum percuss_status status = sensitivity_group_follow(&task, problem->arena, pace, tangent);
     if (status)
         return status;
     orders->first = orders->second = 0.0;
@@ -329,7 +329,7 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
 }
 
 /* Along the answer, as the search for modes left it or made now. NULL: out of memory. */
-static struct tangent_path *find_path(const struct model_margin *margin)
+static struct sensitivity_path *find_path(const struct model_margin *margin)
 {
     const struct solution *solution = margin->solution;
     struct scene scene;
@@ -338,16 +338,16 @@ static struct tangent_path *find_path(const struct model_margin *margin)
     if (!attempt_truncate(margin->problem, solution->scene, &solution->outcome,
                           TRUNCATED_FIRST_ORDER, &scene))
         return NULL;
-    return tangent_path_create(&scene, solution->log, margin->problem->arena);
+    return sensitivity_path_create(&scene, solution->log, margin->problem->arena);
 }
 
-static enum percuss_status follow(const struct model_margin *margin, struct tangent_path *path,
+static enum percuss_status follow(const struct model_margin *margin, struct sensitivity_path *path,
                                   bool curved, struct pace *pace, struct by_orders *orders)
 {
-    struct tangent_source source = source_of(margin, 0, 1.0);
-    struct tangent tangent;
+    struct sensitivity_source source = source_of(margin, 0, 1.0);
+    struct sensitivity tangent;
     source.curved = curved;
-    enum percuss_status status = tangent_follow(path, &source, pace, &tangent);
+    enum percuss_status status = sensitivity_follow(path, &source, pace, &tangent);
     double compression = margin->problem->impulse_compression[0];
     if (status)
         return status;
@@ -369,7 +369,7 @@ static enum percuss_status single_by_order(const struct model_margin *margin, st
         return PERCUSS_OK;
     bool bends = solution->scene->laws[0].operations->three_halves;
     bool curved = bends && expected > STRAIN_MODELS;
-    struct tangent_path *path = find_path(margin);
+    struct sensitivity_path *path = find_path(margin);
     enum percuss_status status = follow(margin, path, curved, pace, orders);
     if (!status && !curved && bends && orders->strain > STRAIN_MODELS &&
         orders->strain <= STRAIN_MODELS_CURVED) {

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "impact/tangent.h"
+#include "impact/sensitivity.h"
 #include "solve/assemble.h"
 #include "solve/error/calibration.h"
 #include "solve/error/neighbours.h"
@@ -115,27 +115,28 @@ static bool first_order_applies(const struct comparison *comparison)
 
 /* Follows the inertia and viscosity of the omitted modes along the answer, with fewer modes. */
 static enum percuss_status follow_omitted(struct attempt_context *context, struct attempt *best,
-                                          struct tangent *tangent)
+                                          struct sensitivity *tangent)
 {
     struct scene scene;
     const struct omitted *omitted = &best->assembly->omitted[0];
-    const struct tangent_source source = {.viscosity = omitted->viscosity,
-                                          .inertia = omitted->inertia};
+    const struct sensitivity_source source = {.viscosity = omitted->viscosity,
+                                              .inertia = omitted->inertia};
     if (!attempt_truncate(context->problem, &best->assembly->scene, &best->outcome,
                           TRUNCATED_FIRST_ORDER, &scene))
         return PERCUSS_INTERNAL;
-    best->path = tangent_path_create(&scene, best->log, context->arena);
-    return tangent_follow(best->path, &source, context->pace, tangent);
+    best->path = sensitivity_path_create(&scene, best->log, context->arena);
+    return sensitivity_follow(best->path, &source, context->pace, tangent);
 }
 
 /* First order's error of the bodies' vibration, which is wrong by as much more as the impulse is:
  * by steps, too. */
 static void find_vibration(struct attempt_context *context, const struct attempt *best,
-                           const struct tangent *tangent, double more)
+                           const struct sensitivity *tangent, double more)
 {
     double *vibration = context->neighbours->vibration;
     for (size_t b = 0; b < context->problem->body_count; b++)
-        vibration[b] = fmax(vibration[b], more * more * tangent_vibration(best->path, tangent, b));
+        vibration[b] =
+            fmax(vibration[b], more * more * sensitivity_vibration(best->path, tangent, b));
 }
 
 /* Decides unless it amplifies too much, or steps alone spend the tolerance. */
@@ -143,7 +144,7 @@ static enum percuss_status by_first_order(struct comparison *comparison)
 {
     struct attempt_context *context = comparison->context;
     struct mode_error *error = comparison->error;
-    struct tangent tangent;
+    struct sensitivity tangent;
     enum percuss_status status = follow_omitted(context, comparison->best, &tangent);
     if (status)
         return status;

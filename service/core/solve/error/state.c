@@ -125,7 +125,7 @@ static enum percuss_status solve_starts(struct attempt_context *context,
         struct scene scene = *solution->scene;
         struct attempt attempt = {.accuracy = solution->step_accuracy,
                                   .assembly = solution->assembly,
-                                  .care = solution->step_care};
+                                  .profile = solution->step_profile};
         if (!make_scene(context->problem, solution, start, model, &scene))
             return PERCUSS_INTERNAL;
         /* each takes a part of the rest of the effort */

@@ -1,15 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "impact/tangent_group.h"
+#include "impact/sensitivity_group.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "impact/carrier.h"
 #include "impact/coupling.h"
 #include "impact/impact_scale.h"
+#include "impact/midpoint.h"
 
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;
@@ -19,9 +19,9 @@ static const double GRAZE = 0.05;
 
 /* One change on its way through the log. */
 struct way {
-    const struct tangent_source *source; /* [contact] */
-    struct motion motion;                /* the change of it */
-    struct carrier carrier;
+    const struct sensitivity_source *source; /* [contact] */
+    struct motion motion;                    /* the change of it */
+    struct midpoint midpoint;
     double (*target)[STEP_POINTS]; /* [contact], that of the approaches by the motion before */
     double (*force)[NODES];        /* [contact], that of the forces on this step */
     double *change;                /* [contact], of the impulse of the sub-impact under way */
@@ -34,10 +34,10 @@ struct follower {
     struct pace *pace;
     size_t count;
     struct way way[TANGENT_GROUP_MOST];
-    struct tangent_group *tangent; /* [count] */
-    double *total;                 /* [contact], impulse of the sub-impact under way */
-    bool lost;                     /* a step could not be followed */
-    double least;                  /* reference impulse of small sub-impacts, N s */
+    struct sensitivity_group *tangent; /* [count] */
+    double *total;                     /* [contact], impulse of the sub-impact under way */
+    bool lost;                         /* a step could not be followed */
+    double least;                      /* reference impulse of small sub-impacts, N s */
     /* of the step under way, [contact] */
     double (*stiffness)[NODES], (*slack)[NODES]; /* of the laws, K and F/K */
     struct node_linear linear;                   /* of contacts with a force */
@@ -60,7 +60,7 @@ static bool create_scene(struct follower *follower, const struct scene *scene)
     return coupling_create(&follower->coupling, &follower->scene, follower->arena);
 }
 
-static bool create_way(struct way *way, const struct tangent_source *source,
+static bool create_way(struct way *way, const struct sensitivity_source *source,
                        const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts;
@@ -69,13 +69,13 @@ static bool create_way(struct way *way, const struct tangent_source *source,
     way->force = arena_take(arena, n, sizeof *way->force);
     way->change = arena_take(arena, n, sizeof *way->change);
     if (!way->target || !way->force || !way->change || !motion_create(&way->motion, scene, arena) ||
-        !carrier_create(&way->carrier, scene, arena))
+        !midpoint_create(&way->midpoint, scene, arena))
         return false;
     motion_start(&way->motion, scene);
     return true;
 }
 
-static bool create(struct follower *follower, const struct tangent_group_task *task)
+static bool create(struct follower *follower, const struct sensitivity_group_task *task)
 {
     size_t n = task->scene->contacts;
     struct arena *arena = follower->arena;
@@ -118,7 +118,7 @@ static double largest_impulse(const struct force_log *log, double *sum)
 
 /* Subtracts the direct effect of a source from a contact's approach at the nodes, by the
  * derivatives of the force's cubic. The change of the law's force acts through the forces. */
-static void take_own(const struct tangent_source *source, double h, const double force[NODES],
+static void take_own(const struct sensitivity_source *source, double h, const double force[NODES],
                      double approach[STEP_POINTS])
 {
     double a[NODES] = {0.0};
@@ -141,7 +141,7 @@ static void take_own(const struct tangent_source *source, double h, const double
 static void find_targets(const struct follower *follower, struct way *way, int level)
 {
     double h = step_length(level);
-    carrier_enter(&way->carrier, &follower->scene, &way->motion, level, way->target);
+    midpoint_enter(&way->midpoint, &follower->scene, &way->motion, level, way->target);
     for (size_t c = 0; c < follower->scene.contacts; c++) {
         double *target = way->target[c];
         double gap = way->motion.gap[c];
@@ -162,7 +162,7 @@ static void find_right(struct follower *follower, size_t which, const struct for
     find_targets(follower, way, step->level);
     for (size_t p = 0; p < follower->linear.count; p++, row += NODES) {
         size_t c = follower->linear.contact[p];
-        const struct tangent_source *source = &way->source[c];
+        const struct sensitivity_source *source = &way->source[c];
         const double *slack = follower->slack[c];
         take_own(source, h, step->force[c], way->target[c]);
         for (int i = 0; i < NODES; i++)
@@ -196,7 +196,7 @@ static void close_part(struct follower *follower, size_t contact)
     if (!(total > 0.0))
         return;
     for (size_t i = 0; i < follower->count; i++) {
-        struct tangent_group *tangent = &follower->tangent[i];
+        struct sensitivity_group *tangent = &follower->tangent[i];
         double *change = &follower->way[i].change[contact];
         tangent->impulse[contact] += *change;
         tangent->strain = fmax(tangent->strain, fabs(*change) / fmax(total, follower->least));
@@ -243,7 +243,7 @@ static enum percuss_status take_step(struct follower *follower, const struct for
     solve_step(follower, step);
     for (size_t i = 0; i < follower->count; i++) {
         struct way *way = &follower->way[i];
-        carrier_take(&way->carrier, &follower->scene, &way->motion, way->force);
+        midpoint_take(&way->midpoint, &follower->scene, &way->motion, way->force);
         for (size_t p = 0; p < follower->linear.count; p++) {
             size_t c = follower->linear.contact[p];
             way->change[c] += impulse_of(way->force[c], step_length(step->level));
@@ -258,13 +258,14 @@ static void fly(struct follower *follower, double time)
     close_parts(follower);
     for (size_t i = 0; i < follower->count; i++) {
         struct way *way = &follower->way[i];
-        carrier_leave(&way->carrier, &follower->scene, &way->motion);
+        midpoint_leave(&way->midpoint, &follower->scene, &way->motion);
         motion_turn(&way->motion, &follower->scene, time);
     }
 }
 
-enum percuss_status tangent_group_follow(const struct tangent_group_task *task, struct arena *arena,
-                                         struct pace *pace, struct tangent_group *tangent)
+enum percuss_status sensitivity_group_follow(const struct sensitivity_group_task *task,
+                                             struct arena *arena, struct pace *pace,
+                                             struct sensitivity_group *tangent)
 {
     const struct force_log *log = task->log;
     struct follower *follower = arena_reserve(arena, 1, sizeof *follower);

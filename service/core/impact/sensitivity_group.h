@@ -1,26 +1,26 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* As tangent.h, for several coupled contacts (up to COUPLING_FEW): the linearised equations along
- * the forces of all of them, for small changes of all of them at once. */
-#ifndef PERCUSS_IMPACT_TANGENT_GROUP_H
-#define PERCUSS_IMPACT_TANGENT_GROUP_H
+/* As sensitivity.h, for several coupled contacts (up to COUPLING_FEW): the linearised equations
+ * along the forces of all of them, for small changes of all of them at once. */
+#ifndef PERCUSS_IMPACT_SENSITIVITY_GROUP_H
+#define PERCUSS_IMPACT_SENSITIVITY_GROUP_H
 
 #include "impact/node_solver.h"
-#include "impact/tangent.h"
+#include "impact/sensitivity.h"
 
 /* Changes that are followed side by side: their common data are computed once. */
 enum { TANGENT_GROUP_MOST = NODE_LINEAR_RIGHT };
 
-struct tangent_group_task {
+struct sensitivity_group_task {
     const struct scene *scene;
     const struct force_log *log; /* of a solution of it by impact_modal, in which nothing yielded */
     size_t count;
-    const struct tangent_source *source[TANGENT_GROUP_MOST]; /* [contact] */
+    const struct sensitivity_source *source[TANGENT_GROUP_MOST]; /* [contact] */
 };
 
 /* The effect of a change. */
-struct tangent_group {
+struct sensitivity_group {
     double impulse[PERCUSS_MAX_CONTACTS]; /* change of each contact's, N s */
     /* Largest change of a sub-impact's impulse over that impulse, or over a small share of the
      * group's largest impulse, since grazes come and go; INFINITY: a step could not be followed */
@@ -29,7 +29,8 @@ struct tangent_group {
 
 /* Follows them: tangent, [task->count]. OK, INTERNAL without memory, or TIMEOUT where the pace
  * stopped it. */
-enum percuss_status tangent_group_follow(const struct tangent_group_task *task, struct arena *arena,
-                                         struct pace *pace, struct tangent_group *tangent);
+enum percuss_status sensitivity_group_follow(const struct sensitivity_group_task *task,
+                                             struct arena *arena, struct pace *pace,
+                                             struct sensitivity_group *tangent);
 
 #endif

@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/tangent_group.c: what first order says of contacts that feel each other
- * against solutions of the changed scene. */
+/* Mirrors service/core/impact/sensitivity_group.c: what first order says of contacts that feel each
+ * other against solutions of the changed scene. */
 #include "contact/plastic.h"
-#include "impact/tangent_group.h"
+#include "impact/sensitivity_group.h"
 #include "unit/impact/toy_scene.h"
 
 enum { CONTACTS = 3, MODES = 4 };
@@ -49,8 +49,8 @@ static void impulses_of(const struct scene *scene, struct arena *arena, struct f
 }
 
 /* The same of a scene that a share of the sources has changed. */
-static void changed(const struct toy *toy, struct arena *arena, const struct tangent_source *source,
-                    double share, double impulse[CONTACTS])
+static void changed(const struct toy *toy, struct arena *arena,
+                    const struct sensitivity_source *source, double share, double impulse[CONTACTS])
 {
     struct scene scene = toy->scene;
     double residual[CONTACTS * CONTACTS];
@@ -66,8 +66,8 @@ static void changed(const struct toy *toy, struct arena *arena, const struct tan
 }
 
 static void check_against_solutions(const struct toy *toy, struct arena *arena,
-                                    const struct tangent_source *source,
-                                    const struct tangent_group *tangent)
+                                    const struct sensitivity_source *source,
+                                    const struct sensitivity_group *tangent)
 {
     double more[CONTACTS];
     double less[CONTACTS];
@@ -85,18 +85,18 @@ static void check_against_solutions(const struct toy *toy, struct arena *arena,
 /* All contacts stiffer and one of them softer in series, followed side by side. */
 static void first_order_is_that_of_solutions(double damping)
 {
-    static const struct tangent_source stiffer[CONTACTS] = {
+    static const struct sensitivity_source stiffer[CONTACTS] = {
         {.force = 1.0}, {.force = 1.0}, {.force = 1.0}};
-    static const struct tangent_source softer[CONTACTS] = {[1] = {.compliance = 1.0}};
+    static const struct sensitivity_source softer[CONTACTS] = {[1] = {.compliance = 1.0}};
     struct toy toy;
     struct arena arena = {0};
-    struct tangent_group tangent[2];
+    struct sensitivity_group tangent[2];
     double impulse[CONTACTS];
     make(&toy, damping);
     struct force_log log = force_log_make(&arena, CONTACTS);
     impulses_of(&toy.scene, &arena, &log, impulse);
-    const struct tangent_group_task task = {&toy.scene, &log, 2, {stiffer, softer}};
-    assert_int_equal(tangent_group_follow(&task, &arena, NULL, tangent), PERCUSS_OK);
+    const struct sensitivity_group_task task = {&toy.scene, &log, 2, {stiffer, softer}};
+    assert_int_equal(sensitivity_group_follow(&task, &arena, NULL, tangent), PERCUSS_OK);
     check_against_solutions(&toy, &arena, stiffer, &tangent[0]);
     check_against_solutions(&toy, &arena, softer, &tangent[1]);
     toy_free(&toy);
@@ -119,12 +119,12 @@ static void damped_modes_carry_it(void **state)
 static void one_contact_is_that_of_tangent(void **state)
 {
     (void)state;
-    static const struct tangent_source source = {
+    static const struct sensitivity_source source = {
         .force = 0.3, .compliance = 0.2, .viscosity = 0.1, .inertia = 0.05};
     struct toy toy;
     struct arena arena = {0};
-    struct tangent alone;
-    struct tangent_group group;
+    struct sensitivity alone;
+    struct sensitivity_group group;
     struct impact_outcome outcome;
     toy_init(&toy, 1);
     toy.gap_rate[0] = -1.0;
@@ -135,11 +135,11 @@ static void one_contact_is_that_of_tangent(void **state)
         .accuracy = FINE, .horizon = 1e3, .max_work = 1e9, .log = &log};
     assert_true(impact_create(&outcome, &toy.scene, &arena));
     assert_int_equal(impact_modal(&toy.scene, &settings, &arena, &outcome), PERCUSS_OK);
-    const struct tangent_group_task task = {&toy.scene, &log, 1, {&source}};
-    assert_int_equal(tangent_group_follow(&task, &arena, NULL, &group), PERCUSS_OK);
-    assert_int_equal(
-        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &alone),
-        PERCUSS_OK);
+    const struct sensitivity_group_task task = {&toy.scene, &log, 1, {&source}};
+    assert_int_equal(sensitivity_group_follow(&task, &arena, NULL, &group), PERCUSS_OK);
+    assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena), &source,
+                                        NULL, &alone),
+                     PERCUSS_OK);
     near(group.impulse[0], alone.impulse, 1e-9 * fabs(alone.impulse));
     toy_free(&toy);
     arena_release(&arena);
@@ -148,14 +148,14 @@ static void one_contact_is_that_of_tangent(void **state)
 static void a_log_of_nothing_changes_nothing(void **state)
 {
     (void)state;
-    static const struct tangent_source source[CONTACTS] = {{.force = 1.0}};
+    static const struct sensitivity_source source[CONTACTS] = {{.force = 1.0}};
     struct toy toy;
     struct arena arena = {0};
-    struct tangent_group tangent;
+    struct sensitivity_group tangent;
     make(&toy, 0.0);
     const struct force_log log = force_log_make(&arena, CONTACTS);
-    const struct tangent_group_task task = {&toy.scene, &log, 1, {source}};
-    assert_int_equal(tangent_group_follow(&task, &arena, NULL, &tangent), PERCUSS_OK);
+    const struct sensitivity_group_task task = {&toy.scene, &log, 1, {source}};
+    assert_int_equal(sensitivity_group_follow(&task, &arena, NULL, &tangent), PERCUSS_OK);
     near(tangent.impulse[0], 0.0, 0.0);
     near(tangent.strain, 0.0, 0.0);
     toy_free(&toy);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "impact/carrier.h"
+#include "impact/midpoint.h"
 
 #include <string.h>
 
@@ -10,21 +10,21 @@
 /* No step has been entered. */
 enum { NO_STEP = -1 };
 
-bool carrier_create(struct carrier *carrier, const struct scene *scene, struct arena *arena)
+bool midpoint_create(struct midpoint *midpoint, const struct scene *scene, struct arena *arena)
 {
-    *carrier = (struct carrier){.level = NO_STEP};
+    *midpoint = (struct midpoint){.level = NO_STEP};
     /* pairs of consecutive arrays */
-    carrier->q = arena_reserve(arena, 2 * scene->groups, sizeof *carrier->q);
-    if (!carrier->q)
+    midpoint->q = arena_reserve(arena, 2 * scene->groups, sizeof *midpoint->q);
+    if (!midpoint->q)
         return false;
-    carrier->v = carrier->q + scene->groups;
+    midpoint->v = midpoint->q + scene->groups;
     for (size_t g = 0; g < scene->groups; g++) {
-        carrier->damped = carrier->damped || scene->group[g].set->most_damping > 0.0;
+        midpoint->damped = midpoint->damped || scene->group[g].set->most_damping > 0.0;
         size_t stride = scene->group[g].stride; /* whole lanes: both are aligned */
-        carrier->q[g] = arena_reserve(arena, 2 * stride, sizeof **carrier->q);
-        if (!carrier->q[g])
+        midpoint->q[g] = arena_reserve(arena, 2 * stride, sizeof **midpoint->q);
+        if (!midpoint->q[g])
             return false;
-        carrier->v[g] = carrier->q[g] + stride;
+        midpoint->v[g] = midpoint->q[g] + stride;
     }
     return true;
 }
@@ -47,36 +47,36 @@ static bool find_turn(int level, int next, enum middle_term *turn)
 }
 
 /* Applies the forces of the taken step. */
-static void kick(const struct carrier *carrier, const struct scene *scene,
+static void kick(const struct midpoint *midpoint, const struct scene *scene,
                  const struct scene_group *group, double *const state[2])
 {
-    const double *middle = middle_of(group, carrier->level);
+    const double *middle = middle_of(group, midpoint->level);
     for (size_t c = 0; c < scene->contacts; c++)
-        if (group->participation[c] && motion_bears(carrier->force[c]))
-            kernel_kick(middle, group->stride, group->participation[c], carrier->force[c], state);
+        if (group->participation[c] && motion_bears(midpoint->force[c]))
+            kernel_kick(middle, group->stride, group->participation[c], midpoint->force[c], state);
 }
 
 /* Turns undamped modes from their instant to the middle of the step of `level`. */
-static void turn_to(const struct carrier *carrier, const struct scene_group *group,
+static void turn_to(const struct midpoint *midpoint, const struct scene_group *group,
                     const double *const start[2], int level, double *const state[2])
 {
     const double *const here[2] = {state[0], state[1]};
-    const double *from = carrier->level < 0 ? NULL : middle_of(group, carrier->level);
+    const double *from = midpoint->level < 0 ? NULL : middle_of(group, midpoint->level);
     /* to the last step's end, or back to its start if it was not taken */
     if (from)
-        kernel_turn(from, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride, here, state);
+        kernel_turn(from, TURN_HALF, midpoint->force ? 1.0 : -1.0, group->stride, here, state);
     kernel_turn(middle_of(group, level), TURN_HALF, 1.0, group->stride, from ? here : start, state);
 }
 
 /* Moves a group's undamped modes to a step of `level`, pass by pass. */
-static void enter(const struct carrier *carrier, const struct scene *scene, size_t g,
+static void enter(const struct midpoint *midpoint, const struct scene *scene, size_t g,
                   const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {
     const struct scene_group *group = &scene->group[g];
-    double *const state[2] = {carrier->q[g], carrier->v[g]};
-    if (carrier->force)
-        kick(carrier, scene, group, state);
-    turn_to(carrier, group, start, level, state);
+    double *const state[2] = {midpoint->q[g], midpoint->v[g]};
+    if (midpoint->force)
+        kick(midpoint, scene, group, state);
+    turn_to(midpoint, group, start, level, state);
     for (size_t c = 0; c < scene->contacts; c++)
         if (group->participation[c])
             kernel_swing(middle_of(group, level), group->stride, group->participation[c],
@@ -86,12 +86,12 @@ static void enter(const struct carrier *carrier, const struct scene *scene, size
 /* Chooses the contact for the pass that includes the turn: one that moves the group, and bears a
  * force if any such does. NONE: no contact moves it. */
 enum { NONE = PERCUSS_MAX_CONTACTS };
-static size_t choose_one(const struct carrier *carrier, const struct scene *scene,
+static size_t choose_one(const struct midpoint *midpoint, const struct scene *scene,
                          const double *const *phi)
 {
     size_t one = NONE;
     for (size_t c = 0; c < scene->contacts; c++)
-        if (phi[c] && (one == NONE || motion_bears(carrier->force[c])))
+        if (phi[c] && (one == NONE || motion_bears(midpoint->force[c])))
             one = c;
     return one;
 }
@@ -105,23 +105,23 @@ static void turn_on(const struct kernel_carry *carry, const struct scene_group *
 }
 
 /* The same in one pass, to a step at most twice or half as long. */
-static void enter_next(const struct carrier *carrier, const struct scene *scene, size_t g,
+static void enter_next(const struct midpoint *midpoint, const struct scene *scene, size_t g,
                        struct kernel_carry *carry, double (*sums)[STEP_POINTS])
 {
     const struct scene_group *group = &scene->group[g];
     const double *const *phi = group->participation;
-    double *const state[2] = {carrier->q[g], carrier->v[g]};
-    carry->from = middle_of(group, carrier->level);
-    size_t one = choose_one(carrier, scene, phi);
+    double *const state[2] = {midpoint->q[g], midpoint->v[g]};
+    carry->from = middle_of(group, midpoint->level);
+    size_t one = choose_one(midpoint, scene, phi);
     if (one == NONE) {
         turn_on(carry, group, state);
         return;
     }
     /* the others: forces before it, approaches after it */
-    carry->force = carrier->force[one];
+    carry->force = midpoint->force[one];
     for (size_t c = 0; c < scene->contacts; c++)
-        if (c != one && phi[c] && motion_bears(carrier->force[c]))
-            kernel_kick(carry->from, group->stride, phi[c], carrier->force[c], state);
+        if (c != one && phi[c] && motion_bears(midpoint->force[c]))
+            kernel_kick(carry->from, group->stride, phi[c], midpoint->force[c], state);
     kernel_carry(carry, group->stride, phi[one], state, sums[one]);
     for (size_t c = 0; c < scene->contacts; c++)
         if (c != one && phi[c])
@@ -139,12 +139,12 @@ static void enter_damped(const struct scene *scene, const struct scene_group *gr
                          start[0], start[1], sums[c]);
 }
 
-static void enter_groups(const struct carrier *carrier, const struct scene *scene,
+static void enter_groups(const struct midpoint *midpoint, const struct scene *scene,
                          const struct motion *motion, int level, double (*sums)[STEP_POINTS])
 {
     struct kernel_carry carry = {0};
     memset(sums, 0, scene->contacts * sizeof *sums);
-    bool next = carrier->force && find_turn(carrier->level, level, &carry.turn);
+    bool next = midpoint->force && find_turn(midpoint->level, level, &carry.turn);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *const start[2] = {motion->q[g], motion->v[g]};
@@ -152,30 +152,30 @@ static void enter_groups(const struct carrier *carrier, const struct scene *scen
         if (!carry.next)
             enter_damped(scene, group, start, level, sums);
         else if (next)
-            enter_next(carrier, scene, g, &carry, sums);
+            enter_next(midpoint, scene, g, &carry, sums);
         else
-            enter(carrier, scene, g, start, level, sums);
+            enter(midpoint, scene, g, start, level, sums);
     }
 }
 
 /* Fast path of most steps: one contact, undamped modes, a taken step and one about as long. False:
  * it does not apply. */
-static inline bool enter_only(const struct carrier *carrier, const struct scene *scene, int level,
+static inline bool enter_only(const struct midpoint *midpoint, const struct scene *scene, int level,
                               double sums[STEP_POINTS])
 {
     struct kernel_carry carry;
-    if (scene->contacts != 1 || carrier->damped || !carrier->force ||
-        !find_turn(carrier->level, level, &carry.turn))
+    if (scene->contacts != 1 || midpoint->damped || !midpoint->force ||
+        !find_turn(midpoint->level, level, &carry.turn))
         return false;
-    carry.force = carrier->force[0];
-    carry.nodes_only = carrier->nodes_only;
+    carry.force = midpoint->force[0];
+    carry.nodes_only = midpoint->nodes_only;
     for (int i = 0; i < STEP_POINTS; i++)
         sums[i] = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *phi = group->participation[0];
-        double *const state[2] = {carrier->q[g], carrier->v[g]};
-        carry.from = middle_of(group, carrier->level);
+        double *const state[2] = {midpoint->q[g], midpoint->v[g]};
+        carry.from = middle_of(group, midpoint->level);
         carry.next = middle_of(group, level);
         if (phi)
             kernel_carry(&carry, group->stride, phi, state, sums);
@@ -185,13 +185,13 @@ static inline bool enter_only(const struct carrier *carrier, const struct scene 
     return true;
 }
 
-void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
-                   int level, double (*sums)[STEP_POINTS])
+void midpoint_enter(struct midpoint *midpoint, const struct scene *scene,
+                    const struct motion *motion, int level, double (*sums)[STEP_POINTS])
 {
-    if (!enter_only(carrier, scene, level, sums[0]))
-        enter_groups(carrier, scene, motion, level, sums);
-    carrier->level = level;
-    carrier->force = NULL;
+    if (!enter_only(midpoint, scene, level, sums[0]))
+        enter_groups(midpoint, scene, motion, level, sums);
+    midpoint->level = level;
+    midpoint->force = NULL;
 }
 
 /* Moves the only contact's rigid gap to the end of a step, without loops. */
@@ -238,32 +238,32 @@ static void take_damped(const struct scene *scene, struct motion *motion, int le
     }
 }
 
-void carrier_take(struct carrier *carrier, const struct scene *scene, struct motion *motion,
-                  double (*const force)[NODES])
+void midpoint_take(struct midpoint *midpoint, const struct scene *scene, struct motion *motion,
+                   double (*const force)[NODES])
 {
-    carrier->force = (const double(*)[NODES])force;
+    midpoint->force = (const double(*)[NODES])force;
     if (scene->contacts == 1)
-        take_gap(scene, motion, carrier->level, force[0]);
+        take_gap(scene, motion, midpoint->level, force[0]);
     else
-        take_gaps(scene, motion, carrier->level, force);
-    if (carrier->damped)
-        take_damped(scene, motion, carrier->level, force);
+        take_gaps(scene, motion, midpoint->level, force);
+    if (midpoint->damped)
+        take_damped(scene, motion, midpoint->level, force);
 }
 
-void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion)
+void midpoint_leave(struct midpoint *midpoint, const struct scene *scene, struct motion *motion)
 {
-    for (size_t g = 0; carrier->level >= 0 && g < scene->groups; g++) {
+    for (size_t g = 0; midpoint->level >= 0 && g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        const double *middle = middle_of(group, carrier->level);
-        double *const state[2] = {carrier->q[g], carrier->v[g]};
+        const double *middle = middle_of(group, midpoint->level);
+        double *const state[2] = {midpoint->q[g], midpoint->v[g]};
         if (!middle)
             continue;
-        if (carrier->force)
-            kick(carrier, scene, group, state);
-        kernel_turn(middle, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride,
+        if (midpoint->force)
+            kick(midpoint, scene, group, state);
+        kernel_turn(middle, TURN_HALF, midpoint->force ? 1.0 : -1.0, group->stride,
                     (const double *const[]){state[0], state[1]},
                     (double *const[]){motion->q[g], motion->v[g]});
     }
-    carrier->level = NO_STEP;
-    carrier->force = NULL;
+    midpoint->level = NO_STEP;
+    midpoint->force = NULL;
 }

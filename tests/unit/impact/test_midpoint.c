@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/carrier.c: modes carried through steps of any lengths, some of them not
- * taken, against the same steps by motion_step and motion_push. */
-#include "impact/carrier.h"
+/* Mirrors service/core/impact/midpoint.c: modes carried through steps of any lengths, some of them
+ * not taken, against the same steps by motion_step and motion_push. */
 #include "impact/kernel.h"
+#include "impact/midpoint.h"
 #include "unit/impact/toy_scene.h"
 
 enum { MODES = 5, STEPS = 12 };
@@ -65,11 +65,11 @@ static void carries_as_the_motion_goes(void **state)
     (void)state;
     for (size_t contacts = 1; contacts <= 2; contacts++) {
         struct toy toy;
-        struct carrier carrier;
+        struct midpoint midpoint;
         struct motion motion, expected;
         double sums[2][STEP_POINTS], force[2][NODES] = {{0.0}};
         make(&toy, contacts);
-        assert_true(carrier_create(&carrier, &toy.scene, &toy.arena));
+        assert_true(midpoint_create(&midpoint, &toy.scene, &toy.arena));
         assert_true(motion_create(&motion, &toy.scene, &toy.arena));
         assert_true(motion_create(&expected, &toy.scene, &toy.arena));
         motion_start(&motion, &toy.scene);
@@ -78,25 +78,25 @@ static void carries_as_the_motion_goes(void **state)
             int level = levels[n];
             /* every third step is tried with another length first, every fourth begins anew */
             if (n % 3 == 2)
-                carrier_enter(&carrier, &toy.scene, &motion, levels[n - 1], sums);
-            carrier_enter(&carrier, &toy.scene, &motion, level, sums);
+                midpoint_enter(&midpoint, &toy.scene, &motion, levels[n - 1], sums);
+            midpoint_enter(&midpoint, &toy.scene, &motion, level, sums);
             check_sums(&toy, &expected, level, sums);
             for (int j = 0; j < NODES; j++) {
                 force[0][j] = 1.0 + 0.3 * n - 0.7 * j;
                 force[1][j] = n % 2 ? 0.4 * j : 0.0;
             }
-            carrier_take(&carrier, &toy.scene, &motion, force);
+            midpoint_take(&midpoint, &toy.scene, &motion, force);
             motion_step(&expected, &expected, &toy.scene, level);
             motion_push(&expected, &toy.scene, level, force);
             if (n % 4 == 3) {
-                carrier_leave(&carrier, &toy.scene, &motion);
+                midpoint_leave(&midpoint, &toy.scene, &motion);
                 check_motion(&toy, &motion, &expected);
             }
         }
         /* a step that is not taken leaves no trace, nor do two ends */
-        carrier_enter(&carrier, &toy.scene, &motion, 8, sums);
-        carrier_leave(&carrier, &toy.scene, &motion);
-        carrier_leave(&carrier, &toy.scene, &motion);
+        midpoint_enter(&midpoint, &toy.scene, &motion, 8, sums);
+        midpoint_leave(&midpoint, &toy.scene, &motion);
+        midpoint_leave(&midpoint, &toy.scene, &motion);
         check_motion(&toy, &motion, &expected);
         toy_free(&toy);
     }

@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/tangent.c: what first and second order say of a sequence of sub-impacts
- * against solutions of the changed scene. */
+/* Mirrors service/core/impact/sensitivity.c: what first and second order say of a sequence of
+ * sub-impacts against solutions of the changed scene. */
 #include "contact/plastic.h"
 #include "impact/oscillator.h"
-#include "impact/tangent.h"
+#include "impact/sensitivity.h"
 #include "unit/impact/toy_scene.h"
 
 enum { MODES = 4, SLOW = 2 };
@@ -58,17 +58,17 @@ static void first_order_is_that_of_solutions(double damping)
 {
     struct toy toy;
     struct arena arena = {0};
-    struct tangent tangent;
+    struct sensitivity tangent;
     size_t count;
     make(&toy, MODES, damping);
     struct force_log log = force_log_make(&arena, 1);
     double impulse = impulse_of(&toy.scene, &arena, &log, &count);
     assert_true(count >= 3);
 
-    const struct tangent_source stiffer = {.force = 1.0};
-    assert_int_equal(
-        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &stiffer, NULL, &tangent),
-        PERCUSS_OK);
+    const struct sensitivity_source stiffer = {.force = 1.0};
+    assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena), &stiffer,
+                                        NULL, &tangent),
+                     PERCUSS_OK);
     double difference =
         (changed(&toy, &arena, STEP, 0.0) - changed(&toy, &arena, -STEP, 0.0)) / (2.0 * STEP);
     print_message("%zu sub-impacts: impulse %.9g, by force %.9g %.9g\n", count, impulse,
@@ -77,10 +77,10 @@ static void first_order_is_that_of_solutions(double damping)
     assert_true(tangent.largest >= fabs(tangent.impulse));
     assert_true(tangent.strain >= fabs(tangent.impulse) / impulse / (double)count);
 
-    const struct tangent_source softer = {.compliance = 1.0};
-    assert_int_equal(
-        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &softer, NULL, &tangent),
-        PERCUSS_OK);
+    const struct sensitivity_source softer = {.compliance = 1.0};
+    assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena), &softer,
+                                        NULL, &tangent),
+                     PERCUSS_OK);
     difference =
         (changed(&toy, &arena, 0.0, STEP) - changed(&toy, &arena, 0.0, -STEP)) / (2.0 * STEP);
     print_message("by compliance %.9g %.9g\n", tangent.impulse, difference);
@@ -109,24 +109,25 @@ static void vibration_changes_as_that_of_solutions(void **state)
     (void)state;
     struct toy toy;
     struct arena arena = {0};
-    struct tangent tangent;
+    struct sensitivity tangent;
     struct impact_outcome changed[2];
     make(&toy, MODES, 0.0);
     struct force_log log = force_log_make(&arena, 1);
     impulse_of(&toy.scene, &arena, &log, NULL);
-    struct tangent_path *path = tangent_path_create(&toy.scene, &log, &arena);
-    const struct tangent_source softer = {.compliance = 1.0};
-    assert_int_equal(tangent_follow(path, &softer, NULL, &tangent), PERCUSS_OK);
+    struct sensitivity_path *path = sensitivity_path_create(&toy.scene, &log, &arena);
+    const struct sensitivity_source softer = {.compliance = 1.0};
+    assert_int_equal(sensitivity_follow(path, &softer, NULL, &tangent), PERCUSS_OK);
     const double compliance = toy.residual[0];
     for (int side = 0; side < 2; side++) {
         toy.residual[0] = compliance + (side ? STEP : -STEP);
         changed[side] = toy_run(&toy, FINE, 1e3);
     }
     double energy = difference_energy(&changed[0], &changed[1]) / (4.0 * STEP * STEP);
-    print_message("energy of the change %.9g %.9g\n", tangent_vibration(path, &tangent, 0), energy);
+    print_message("energy of the change %.9g %.9g\n", sensitivity_vibration(path, &tangent, 0),
+                  energy);
     /* as impulses are, to 1e-5, by their squares */
-    near(tangent_vibration(path, &tangent, 0), energy, 2e-5 * energy);
-    near(tangent_vibration(path, &tangent, 1), 0.0, 0.0);
+    near(sensitivity_vibration(path, &tangent, 0), energy, 2e-5 * energy);
+    near(sensitivity_vibration(path, &tangent, 1), 0.0, 0.0);
     toy_free(&toy);
     arena_release(&arena);
 }
@@ -142,7 +143,7 @@ static const double MISSED = 0.01;
 static void second_order_is_that_of_solutions(void **state)
 {
     (void)state;
-    static const struct tangent_source sources[] = {
+    static const struct sensitivity_source sources[] = {
         {.force = 1.0, .curved = true},
         {.compliance = 0.1, .curved = true},
         {.force = 0.5, .compliance = -0.1, .curved = true},
@@ -154,12 +155,12 @@ static void second_order_is_that_of_solutions(void **state)
     size_t count;
     double impulse = impulse_of(&toy.scene, &arena, &log, &count);
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
-        const struct tangent_source *source = &sources[i];
-        struct tangent tangent;
+        const struct sensitivity_source *source = &sources[i];
+        struct sensitivity tangent;
         double both = 0.0;
-        assert_int_equal(
-            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), source, NULL, &tangent),
-            PERCUSS_OK);
+        assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena),
+                                            source, NULL, &tangent),
+                         PERCUSS_OK);
         for (int sign = -1; sign <= 1; sign += 2)
             both += changed(&toy, &arena, expm1(sign * WIDE * source->force),
                             sign * WIDE * source->compliance);
@@ -168,12 +169,12 @@ static void second_order_is_that_of_solutions(void **state)
                       tangent.impulse);
         near(tangent.curvature, difference, MISSED * fabs(difference));
         /* first order is the same with it */
-        struct tangent_source straight = *source;
-        struct tangent first;
+        struct sensitivity_source straight = *source;
+        struct sensitivity first;
         straight.curved = false;
-        assert_int_equal(
-            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &straight, NULL, &first),
-            PERCUSS_OK);
+        assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena),
+                                            &straight, NULL, &first),
+                         PERCUSS_OK);
         near(first.impulse, tangent.impulse, 0.0);
         assert_true(first.strain <= tangent.strain);
         assert_true(0.5 * fabs(tangent.curvature) <= tangent.strain * impulse * (double)count);
@@ -206,7 +207,7 @@ static void inertia_and_viscosity_are_those_of_fast_oscillators(void **state)
     for (int i = 0; i < 2; i++) {
         struct toy toy, with;
         struct arena arena = {0};
-        struct tangent tangent;
+        struct sensitivity tangent;
         make(&toy, SLOW, 0.0);
         make(&with, SLOW, 0.0);
         toy_add(&with, 1, 1, fast, dampings[i], share);
@@ -215,12 +216,12 @@ static void inertia_and_viscosity_are_those_of_fast_oscillators(void **state)
         struct force_log log = force_log_make(&arena, 1);
         double without = impulse_of(&toy.scene, &arena, &log, NULL);
         double difference = impulse_of(&with.scene, &arena, NULL, NULL) - without;
-        const struct tangent_source source = {.inertia = compliance / (fast[0] * fast[0]),
-                                              .viscosity =
-                                                  2.0 * dampings[i] * compliance / fast[0]};
-        assert_int_equal(
-            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &tangent),
-            PERCUSS_OK);
+        const struct sensitivity_source source = {.inertia = compliance / (fast[0] * fast[0]),
+                                                  .viscosity =
+                                                      2.0 * dampings[i] * compliance / fast[0]};
+        assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena),
+                                            &source, NULL, &tangent),
+                         PERCUSS_OK);
         print_message("by an oscillator %.6g %.6g\n", tangent.impulse, difference);
         /* touch and release, where F is like t^1.5, are not slow: at 60 rad/s it is 0.05 off, at
          * 100 rad/s 0.02 */
@@ -236,13 +237,13 @@ static void a_log_of_nothing_changes_nothing(void **state)
     (void)state;
     struct toy toy;
     struct arena arena = {0};
-    struct tangent tangent;
+    struct sensitivity tangent;
     make(&toy, MODES, 0.0);
     const struct force_log log = force_log_make(&arena, 1);
-    const struct tangent_source source = {.force = 1.0};
-    assert_int_equal(
-        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &tangent),
-        PERCUSS_OK);
+    const struct sensitivity_source source = {.force = 1.0};
+    assert_int_equal(sensitivity_follow(sensitivity_path_create(&toy.scene, &log, &arena), &source,
+                                        NULL, &tangent),
+                     PERCUSS_OK);
     near(tangent.impulse, 0.0, 0.0);
     near(tangent.strain, 0.0, 0.0);
     toy_free(&toy);

@@ -1,13 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "impact/tangent.h"
+#include "impact/sensitivity.h"
 
 #include <math.h>
 
-#include "impact/carrier.h"
 #include "impact/impact_scale.h"
 #include "impact/kernel.h"
+#include "impact/midpoint.h"
 #include "impact/node_factors.h"
 #include "impact/simd.h"
 
@@ -29,7 +29,7 @@ struct path_level {
     double coupling[STEP_POINTS][NODES];
 };
 
-struct tangent_path {
+struct sensitivity_path {
     const struct force_log *log;
     struct scene scene;                     /* at rest, where nothing presses */
     struct path_level *levels[STEP_LEVELS]; /* NULL: no step is of it */
@@ -47,14 +47,14 @@ struct level_table {
  * sub-impact under way. */
 struct course {
     struct motion motion;
-    struct carrier carrier;
+    struct midpoint midpoint;
     double force[1][NODES];
     double impulse;
 };
 
 struct follower {
-    const struct tangent_path *path;
-    const struct tangent_source *source;
+    const struct sensitivity_path *path;
+    const struct sensitivity_source *source;
     struct course first, second;
     struct level_table *tables[STEP_LEVELS];       /* NULL: not yet */
     double rate[NODES][NODES], bend[NODES][NODES]; /* see differentiate; 0: not needed */
@@ -64,15 +64,15 @@ struct follower {
 static bool create_course(struct course *course, const struct scene *scene, struct arena *arena)
 {
     if (!motion_create(&course->motion, scene, arena) ||
-        !carrier_create(&course->carrier, scene, arena))
+        !midpoint_create(&course->midpoint, scene, arena))
         return false;
-    course->carrier.nodes_only = true;
+    course->midpoint.nodes_only = true;
     motion_start(&course->motion, scene);
     return true;
 }
 
 /* The scene at rest. False: out of memory. */
-static bool calm(struct tangent_path *path, const struct scene *scene)
+static bool calm(struct sensitivity_path *path, const struct scene *scene)
 {
     double *none = arena_take(path->arena, 1, sizeof *none);
     struct scene_group *groups = arena_take(path->arena, scene->groups, sizeof *groups);
@@ -107,7 +107,7 @@ static void find_coupling(const struct scene *scene, int level, double m[STEP_PO
 }
 
 /* The coupling of the path's steps of a level. NULL: out of memory. */
-static const struct path_level *find_level(struct tangent_path *path, int level)
+static const struct path_level *find_level(struct sensitivity_path *path, int level)
 {
     struct path_level **at = &path->levels[level];
     if (*at)
@@ -127,7 +127,7 @@ static inline double impulse_of(const double force[NODES], double h)
 }
 
 /* Adds a step that begins `free` after the one before it. False: out of memory. */
-static bool lay_step(struct tangent_path *path, const struct force_step *step, double free,
+static bool lay_step(struct sensitivity_path *path, const struct force_step *step, double free,
                      struct path_step *to)
 {
     double same[NODES];
@@ -148,10 +148,10 @@ static bool lay_step(struct tangent_path *path, const struct force_step *step, d
     return to->turns && motion_turn_tables(&path->scene, free, path->arena, to->turns);
 }
 
-struct tangent_path *tangent_path_create(const struct scene *scene, const struct force_log *log,
-                                         struct arena *arena)
+struct sensitivity_path *sensitivity_path_create(const struct scene *scene,
+                                                 const struct force_log *log, struct arena *arena)
 {
-    struct tangent_path *path = arena_take(arena, 1, sizeof *path);
+    struct sensitivity_path *path = arena_take(arena, 1, sizeof *path);
     if (!path)
         return NULL;
     path->log = log;
@@ -186,7 +186,7 @@ static void differentiate(double first[NODES][NODES], double second[NODES][NODES
  * viscosity by the cubic's derivatives, its force by the level's coupling. NULL: out of memory. */
 static const struct level_table *find_table(struct follower *follower, int level)
 {
-    const struct tangent_source *source = follower->source;
+    const struct sensitivity_source *source = follower->source;
     struct level_table *table = follower->tables[level];
     if (table)
         return table;
@@ -233,7 +233,7 @@ static void find_approaches(const struct scene *scene, struct course *course, in
     const struct motion *motion = &course->motion;
     node_pair gap = pair_of(motion->gap[0]);
     node_pair travel = pair_of(step_length(level) * motion->gap_rate[0]);
-    carrier_enter(&course->carrier, scene, motion, level, sums);
+    midpoint_enter(&course->midpoint, scene, motion, level, sums);
     for (int i = 0; i < NODES; i += 2) {
         node_pair away = gap + NODE_CONST_PAIR(collocation.node + i) * travel;
         away += NODE_CONST_PAIR(sums[0] + i);
@@ -244,7 +244,7 @@ static void find_approaches(const struct scene *scene, struct course *course, in
 /* Moves on by the forces of the step and adds their impulse. */
 static inline void move_on(const struct scene *scene, struct course *course, double h)
 {
-    carrier_take(&course->carrier, scene, &course->motion, course->force);
+    midpoint_take(&course->midpoint, scene, &course->motion, course->force);
     course->impulse += impulse_of(course->force[0], h);
 }
 
@@ -323,12 +323,12 @@ static bool take_step(struct follower *follower, const struct force_step *step,
 /* Moves freely from sub-impact to sub-impact. */
 static void fly(const struct scene *scene, struct course *course, const struct path_step *step)
 {
-    carrier_leave(&course->carrier, scene, &course->motion);
+    midpoint_leave(&course->midpoint, scene, &course->motion);
     motion_turn_by(&course->motion, scene, step->flight, step->turns);
 }
 
 /* A sub-impact has ended. */
-static void close_part(struct follower *follower, struct tangent *tangent)
+static void close_part(struct follower *follower, struct sensitivity *tangent)
 {
     double change = follower->first.impulse;
     tangent->impulse += change;
@@ -342,7 +342,7 @@ static void close_part(struct follower *follower, struct tangent *tangent)
 /* At rest before the first step. False: out of memory. */
 static bool begin(struct follower *follower)
 {
-    const struct tangent_path *path = follower->path;
+    const struct sensitivity_path *path = follower->path;
     if (follower->source->viscosity != 0.0 || follower->source->inertia != 0.0)
         differentiate(follower->rate, follower->bend);
     return create_course(&follower->first, &path->scene, path->arena) &&
@@ -350,11 +350,12 @@ static bool begin(struct follower *follower)
             create_course(&follower->second, &path->scene, path->arena));
 }
 
-enum percuss_status tangent_follow(struct tangent_path *path, const struct tangent_source *source,
-                                   struct pace *pace, struct tangent *tangent)
+enum percuss_status sensitivity_follow(struct sensitivity_path *path,
+                                       const struct sensitivity_source *source, struct pace *pace,
+                                       struct sensitivity *tangent)
 {
     struct follower follower = {.path = path, .source = source};
-    *tangent = (struct tangent){0};
+    *tangent = (struct sensitivity){0};
     if (!path || !begin(&follower))
         return PERCUSS_INTERNAL;
     const struct force_log *log = path->log;
@@ -376,13 +377,13 @@ enum percuss_status tangent_follow(struct tangent_path *path, const struct tange
         close_part(&follower, tangent);
     if (!path->sound)
         tangent->strain = INFINITY;
-    carrier_leave(&follower.first.carrier, &path->scene, &follower.first.motion);
+    midpoint_leave(&follower.first.midpoint, &path->scene, &follower.first.motion);
     tangent->motion = follower.first.motion;
     return PERCUSS_OK;
 }
 
-double tangent_vibration(const struct tangent_path *path, const struct tangent *tangent,
-                         size_t body)
+double sensitivity_vibration(const struct sensitivity_path *path, const struct sensitivity *tangent,
+                             size_t body)
 {
     return motion_vibration(&tangent->motion, &path->scene, body);
 }
