@@ -553,9 +553,9 @@ static void concurrent_adopt(struct solution *solution, const struct problem *pr
         solution->error.steps.energy_closes &&
         solution->error.steps.restitution + solution->error.modes.restitution <= problem->tolerance;
     /* the modal solutions had another contact model */
-    neighbours_begin(&solution->neighbours, problem, answer);
+    neighbours_begin(solution->neighbours, problem, answer);
     for (unsigned k = 0; k < SWING_PHASES / 2; k++)
-        neighbours_add(&solution->neighbours, problem, &search->latest[k]);
+        neighbours_add(solution->neighbours, problem, &search->latest[k]);
 }
 
 enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,

@@ -413,7 +413,7 @@ static const char *reason_of_error(const struct problem *problem, const struct s
 static void warn_range(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
-    const struct neighbours *neighbours = &solution->neighbours;
+    const struct neighbours *neighbours = solution->neighbours;
     size_t widest = 0;
     double width = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
@@ -436,7 +436,7 @@ static void warn_range(const struct problem *problem, const struct solution *sol
 static void warn_counts(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    const struct neighbours *neighbours = &solution->neighbours;
+    const struct neighbours *neighbours = solution->neighbours;
     for (size_t c = 0; c < problem->contact_count; c++)
         if (neighbours->fewest[c] != neighbours->most[c])
             report_warn(result,

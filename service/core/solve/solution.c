@@ -128,7 +128,11 @@ static enum percuss_status solution_search(struct attempt_context *context,
 {
     const struct problem *problem = context->problem;
     bool sequence = refinement_expects_sequence(problem);
-    *solution = (struct solution){.restitution_by_speed = NAN};
+    context->neighbours = arena_reserve(context->arena, 1, sizeof *context->neighbours);
+    if (!context->neighbours)
+        return PERCUSS_INTERNAL;
+    context->neighbours->solutions = 0;
+    *solution = (struct solution){.neighbours = context->neighbours, .restitution_by_speed = NAN};
     /* steps as the tolerance asks for to begin with, and as many modes */
     struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
                                                               problem->contact_count > 1),
@@ -190,7 +194,6 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
             .arena = arena,
             .pace = pace,
             .work = attempt_work_allowed(problem->request->options.method),
-            .neighbours = &solution->neighbours,
         };
         enum percuss_status status =
             model ? solution_run(&context, model, solution) : solution_search(&context, solution);

@@ -33,7 +33,8 @@ struct solution {
     bool spent;     /* the effort allowed ended the search */
     double work;    /* that it left of it (impact.h) */
     double farther; /* times its distance from those beside it an answer may be wrong by */
-    struct neighbours neighbours; /* the answer, and those that it was compared with */
+    struct neighbours *neighbours; /* the answer, and those that it was compared with; in the
+                                      outcome's arena */
 };
 
 /* Solves until the estimated error fits `tolerance` or the effort allowed is spent, or once by a

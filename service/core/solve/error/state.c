@@ -245,7 +245,7 @@ void state_error_after(const struct problem *problem, const struct solution *sol
     double before = energy_before(solution->scene, body);
     double after = solution->outcome.vibration[body];
     double differs =
-        fmax(solution->neighbours.vibration[body], solution->error.states.vibration[false][body]);
+        fmax(solution->neighbours->vibration[body], solution->error.states.vibration[false][body]);
     state->unknown =
         share_after(share_of(problem, body, false), before, shares->numerical, differs, after);
     state->abruptness = abruptness_after(problem, solution, body);

@@ -57,7 +57,7 @@ static double largest_share(const struct problem *problem, const struct solution
     double largest = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++) {
         double scale = outcome_impulse_scale(problem, &solution->outcome, c);
-        double distance = neighbours_impulse_distance(&solution->neighbours, &solution->outcome, c);
+        double distance = neighbours_impulse_distance(solution->neighbours, &solution->outcome, c);
         if (scale > 0.0)
             largest = fmax(largest, distance / scale);
     }
@@ -69,7 +69,7 @@ static double numerical(const struct problem *problem, const struct solution *so
                         double largest)
 {
     double scale = outcome_impulse_scale(problem, &solution->outcome, c);
-    double distance = neighbours_impulse_distance(&solution->neighbours, &solution->outcome, c);
+    double distance = neighbours_impulse_distance(solution->neighbours, &solution->outcome, c);
     double error = solution->farther * fmax(distance, AGREED * largest * scale);
     double steps = attempt_steps_leave(solution->step_accuracy);
     return fmax(error, steps * scale) + solution->error.states.restitution * scale;
