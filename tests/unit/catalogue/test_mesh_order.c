@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors the orders of service/catalogue/mesh_entry.c: bodies whose files are not there, or not
+/* Mirrors the orders of service/core/catalogue/mesh_entry.c: bodies whose files are not there, or not
  * yet. */
 #include "catalogue/mesh_entry.h"
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/endpoint/encode_ensemble.c, and the copies and digests of ensembles in
+/* Mirrors service/exchange/encode_ensemble.c, and the copies and digests of ensembles in
  * question.c. */
 #include <string.h>
 
