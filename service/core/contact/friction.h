@@ -1,0 +1,64 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tangential force of a contact with friction and its own tangential compliance, from the normal
+ * law alone: the superposition of Jaeger (Arch. Appl. Mech. 65 (1995) 478), which gives the annuli
+ * of Maw, Barber and Fawcett (Wear 38 (1976) 101) for Hertz's law.
+ *
+ * The contact is cut into cells by the indentation at which they begin to touch, y_i <= d < y_i+1,
+ * y_i = depth (i/n)^2. A cell bears of the normal force F(d)
+ *
+ *   share_i(d) = F(m) - F(y_i) - (m - y_i) F'(y_i) + (d - m) (F'(m) - F'(y_i)),  m = min(d, y_i+1)
+ *
+ * (their sum is F), and resists the tangential displacement u of body a's surface against b's, in
+ * direction j, by kappa_j (F'(m) - F'(y_i)) per metre, as long as its own force is below the
+ * coefficient of friction mu times its share: Coulomb's law, cell by cell. The last cell has no
+ * upper end. Between updates of its history a normal law must be elastic and convex. */
+#ifndef PERCUSS_CONTACT_FRICTION_H
+#define PERCUSS_CONTACT_FRICTION_H
+
+#include "base/arena.h"
+#include "contact/hertz.h"
+#include "contact/law.h"
+
+struct friction {
+    const struct contact_law *law; /* borrowed */
+    double coefficient;            /* mu > 0 */
+    double ratio[2];               /* kappa: tangential over normal stiffness, by direction */
+    size_t count;                  /* of cells */
+    double *edge;                  /* [count]: y_i, m */
+    double *force, *slope;         /* [count]: of the normal law at the edges, N and N/m */
+    double *share;                 /* [count]: at the indentation, N */
+    double (*traction)[2];         /* [count]: tangential force over mu, N */
+    double indentation;            /* m */
+    double displacement[2];        /* since the touch, m */
+    double lost;                   /* by slip since friction_create, J */
+};
+
+/* Ratios of tangential to normal stiffness of two elastic half-spaces along the contact ellipse's
+ * major and minor axis: with K and E of m = 1 - (b/a)^2, D = (K - E)/m and B = K - D
+ *
+ *   kappa_major = sum[(1 - nu)/G] K / sum[((1 - nu) K + nu D)/G],    kappa_minor: B for D,
+ *
+ * sums over both bodies; of a circle sum[(1 - nu)/G] / sum[(2 - nu)/(2 G)] (Johnson, Contact
+ * Mechanics, section 7.2 for the circle; Vermeulen and Johnson, J. Appl. Mech. 31 (1964) 338). */
+void friction_ratios(const struct hertz_contact *hertz, const struct material *a,
+                     const struct material *b, double ratio[2]);
+
+/* A contact without friction's history, with `count` > 0 cells from the arena. False: no memory. */
+bool friction_create(struct friction *friction, double coefficient, const double ratio[2],
+                     size_t count, struct arena *arena);
+
+/* The contact touches: its cells, all open, divide the indentations up to `depth` (m), the expected
+ * largest one, by a law that stays until the contact opens. */
+void friction_touch(struct friction *friction, const struct contact_law *law, double depth);
+
+/* Goes on to an indentation and a displacement, both in proportion; force[j] becomes the tangential
+ * force of a on b, N. */
+void friction_walk(struct friction *friction, double indentation, const double displacement[2],
+                   double force[2]);
+
+/* Recoverable energy of the cells that are closed, J. */
+double friction_stored(const struct friction *friction);
+
+#endif
