@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/body_kind.c: every kind of the list says all that is asked of it, under a
- * name and a number of its own. */
+/* Mirrors service/core/model/body_kind.c: every kind of the list says all that is asked of it,
+ * under a name and a number of its own. */
 #include <string.h>
 
 #include "check.h"
@@ -13,11 +13,14 @@ static void kinds_keep_their_numbers(void **state)
 {
     (void)state;
     /* catalogue revisions hash them */
-    static const char *const names[] = {"sphere", "rod", "beam", "cylinder", "block", "half-space"};
+    static const char *const names[] = {"sphere", "rod",        "beam", "cylinder",
+                                        "block",  "half-space", "mesh"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         assert_string_equal(body_kind_at(i)->name, names[i]);
         assert_int_equal(body_kind_number(body_kind_at(i)), i);
     }
+    /* a new one joins the end, and this list */
+    assert_null(body_kind_at(sizeof names / sizeof *names));
 }
 
 static void every_kind_is_complete(void **state)
