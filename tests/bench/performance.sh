@@ -63,7 +63,7 @@ solve_purposes() {
     cat <<'PARTS'
 the answer and its modes|refine_modes|refinement_compare
 estimate of its error|refinement_compare refine_steps|
-the models' error|model_error_find|
+the models' error|models_find_error|
 PARTS
 }
 
