@@ -24,7 +24,7 @@ static enum percuss_result report(const struct percuss_client *client, enum perc
 }
 
 /* The end of a call without a pointer that it needs: its output is empty. */
-static enum percuss_result refuse(void *output, size_t size)
+static enum percuss_result dispatch_refuse(void *output, size_t size)
 {
     if (output)
         memset(output, 0, size);
@@ -40,7 +40,7 @@ void percuss_client_free(struct percuss_client *client)
 void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
 {
     if (ERROR_NULL(client, id))
-        refuse(id, 16);
+        dispatch_refuse(id, 16);
     else
         operations_of(client)->id(client, id);
 }
@@ -53,7 +53,7 @@ bool percuss_client_observes(const struct percuss_client *client)
 bool percuss_client_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE])
 {
     if (ERROR_NULL(client, text)) {
-        refuse(text, 1);
+        dispatch_refuse(text, 1);
         return false;
     }
     return operations_of(client)->warning(client, text);
@@ -62,7 +62,7 @@ bool percuss_client_warning(const struct percuss_client *client, char text[PERCU
 bool percuss_client_server(struct percuss_client *client, uint8_t server[16])
 {
     if (ERROR_NULL(client, server)) {
-        refuse(server, 16);
+        dispatch_refuse(server, 16);
         return false;
     }
     return operations_of(client)->server(client, server);
@@ -78,7 +78,7 @@ enum percuss_result percuss_client_connect(struct percuss_client *client, double
 enum percuss_result percuss_ping(struct percuss_client *client, double timeout, double *round_trip)
 {
     if (ERROR_NULL(client, round_trip))
-        return refuse(round_trip, sizeof *round_trip);
+        return dispatch_refuse(round_trip, sizeof *round_trip);
     return report(client, operations_of(client)->ping(client, timeout, round_trip));
 }
 
@@ -87,7 +87,7 @@ enum percuss_result percuss_solve(struct percuss_client *client,
                                   struct percuss_reply *reply)
 {
     if (ERROR_NULL(client, request, reply))
-        return refuse(reply, sizeof *reply);
+        return dispatch_refuse(reply, sizeof *reply);
     return report(client, operations_of(client)->solve(client, request, timeout, reply));
 }
 
@@ -96,8 +96,8 @@ enum percuss_result percuss_solve_traced(struct percuss_client *client,
                                          struct percuss_reply *reply, struct percuss_trace *trace)
 {
     if (ERROR_NULL(client, request, reply, trace)) {
-        refuse(trace, sizeof *trace);
-        return refuse(reply, sizeof *reply);
+        dispatch_refuse(trace, sizeof *trace);
+        return dispatch_refuse(reply, sizeof *reply);
     }
     return report(client,
                   operations_of(client)->solve_traced(client, request, timeout, reply, trace));
@@ -119,7 +119,7 @@ enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
                                            void *context, struct percuss_ensemble_reply *reply)
 {
     if (ERROR_NULL(client, request, reply))
-        return refuse(reply, sizeof *reply);
+        return dispatch_refuse(reply, sizeof *reply);
     return report(client, operations_of(client)->solve_ensemble(client, request, timeout, progress,
                                                                 context, reply));
 }
@@ -136,7 +136,7 @@ enum percuss_result percuss_wait(struct percuss_client *client, uint64_t sequenc
                                  struct percuss_reply *reply)
 {
     if (ERROR_NULL(client, reply))
-        return refuse(reply, sizeof *reply);
+        return dispatch_refuse(reply, sizeof *reply);
     return report(client, operations_of(client)->wait(client, sequence, timeout, reply));
 }
 
@@ -144,7 +144,7 @@ enum percuss_result percuss_poll(struct percuss_client *client, uint64_t sequenc
                                  struct percuss_reply *reply)
 {
     if (ERROR_NULL(client, reply))
-        return refuse(reply, sizeof *reply);
+        return dispatch_refuse(reply, sizeof *reply);
     return report(client, operations_of(client)->poll(client, sequence, reply));
 }
 
@@ -159,7 +159,7 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
                                     struct percuss_server_list *list)
 {
     if (ERROR_NULL(client, list))
-        return refuse(list, sizeof *list);
+        return dispatch_refuse(list, sizeof *list);
     return report(client, operations_of(client)->servers(client, timeout, list));
 }
 
@@ -167,7 +167,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
                                    struct percuss_body_list *list)
 {
     if (ERROR_NULL(client, list))
-        return refuse(list, sizeof *list);
+        return dispatch_refuse(list, sizeof *list);
     return report(client, operations_of(client)->bodies(client, timeout, list));
 }
 
@@ -175,7 +175,7 @@ enum percuss_result percuss_specimens(struct percuss_client *client, double time
                                       struct percuss_specimen_list *list)
 {
     if (ERROR_NULL(client, list))
-        return refuse(list, sizeof *list);
+        return dispatch_refuse(list, sizeof *list);
     return report(client, operations_of(client)->specimens(client, timeout, list));
 }
 

@@ -230,7 +230,7 @@ static void parse_fit(const char *text, struct calibrate *calibrate, struct argp
             argp_error(state, "--fit: '%s': given twice", text);
 }
 
-static void check(const struct calibrate *calibrate, struct argp_state *state)
+static void calibrate_check(const struct calibrate *calibrate, struct argp_state *state)
 {
     const struct scene *scene = &calibrate->scene;
     scene_check_single(scene, state);
@@ -270,7 +270,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
-        check(calibrate, state);
+        calibrate_check(calibrate, state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

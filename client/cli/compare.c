@@ -343,7 +343,7 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static void check(const struct compare *compare, struct argp_state *state)
+static void compare_check(const struct compare *compare, struct argp_state *state)
 {
     scene_check_single(&compare->scene, state);
     const struct scene_need file = {"MEASURED.csv", compare->file};
@@ -380,7 +380,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
-        check(compare, state);
+        compare_check(compare, state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

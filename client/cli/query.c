@@ -276,7 +276,7 @@ static void check_several(const struct query *query, struct argp_state *state)
 }
 
 /* Either a scene or a whole request. */
-static void check(const struct query *query, struct argp_state *state)
+static void query_check(const struct query *query, struct argp_state *state)
 {
     const struct scene *scene = &query->scene;
     bool specimen = query->specimens[0] || query->specimens[1];
@@ -368,7 +368,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
-        check(query, state);
+        query_check(query, state);
         /* once all is known that is said of their columns */
         for (size_t i = 0; i < query->measured_count; i++)
             read_measured(query, &query->measured[i], state);

@@ -35,7 +35,7 @@ static bool own_folder(char folder[PATH_MAX])
 }
 
 /* The file at `from`/`path` as a user here would write it; false: there is none. */
-static bool find(const char *from, const char *path, char found[PATH_MAX])
+static bool start_advice_find(const char *from, const char *path, char found[PATH_MAX])
 {
     char whole[PATH_MAX];
     char here[PATH_MAX];
@@ -53,7 +53,7 @@ static unsigned unit_domain(const char *folder)
 {
     char path[PATH_MAX], line[256];
     unsigned domain = 0;
-    FILE *settings = find(folder, UNIT_SETTINGS, path) ? fopen(path, "r") : NULL;
+    FILE *settings = start_advice_find(folder, UNIT_SETTINGS, path) ? fopen(path, "r") : NULL;
     while (settings && fgets(line, sizeof line, settings))
         (void)sscanf(line, "domain: %u", &domain);
     if (settings)
@@ -66,7 +66,8 @@ static bool unit_suits(const struct common *common, const char *folder)
 {
     char path[PATH_MAX];
     const bool partition = common->partition && common->partition[0];
-    return !partition && find(folder, UNIT, path) && unit_domain(folder) == common->domain;
+    return !partition && start_advice_find(folder, UNIT, path) &&
+           unit_domain(folder) == common->domain;
 }
 
 /* Where else servers are: "; one is in domain 7, 9". */
@@ -93,8 +94,8 @@ void complain_no_server(const struct common *common)
     list_domains(common, elsewhere, sizeof elsewhere);
     bool known = own_folder(folder), found = false;
     for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
-        found =
-            find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings);
+        found = start_advice_find(folder, places[i].daemon, daemon) &&
+                start_advice_find(folder, places[i].settings, settings);
     complain("%s%s; --local needs none; start one with: %s%s --config %s --domain %u%s%s", what,
              elsewhere,
              known && unit_suits(common, folder) ? "systemctl start percussd; or by yourself: "

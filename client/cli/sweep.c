@@ -277,7 +277,7 @@ static bool parse_row(const struct reading *reading, size_t k, unsigned i, struc
     return same;
 }
 
-static int refuse(const struct reading *reading, const char *what)
+static int sweep_refuse(const struct reading *reading, const char *what)
 {
     complain("--resume: %s:%zu: '%.200s' %s: another sweep's file?", reading->name, reading->number,
              reading->line, what);
@@ -292,18 +292,18 @@ static int read_rows(struct reading *reading, struct sweep_curve *curves)
     bool empty = !next_line(reading), good = empty || strcmp(head, reading->line) == 0;
     free(head);
     if (!good)
-        return refuse(reading, "is not the first line of this sweep");
+        return sweep_refuse(reading, "is not the first line of this sweep");
     /* curve by curve, speed by speed, as they are asked for */
     for (size_t k = 0; !empty && k < reading->points->curve_count; k++)
         for (unsigned i = 0; i < reading->points->count; i++) {
             if (!next_line(reading))
                 return EXIT_ANSWERED;
             if (!parse_row(reading, k, i, &curves[k].rows[i]))
-                return refuse(reading, "is not the row of this sweep that stands here");
+                return sweep_refuse(reading, "is not the row of this sweep that stands here");
             curves[k].done = i + 1;
         }
     if (!empty && next_line(reading))
-        return refuse(reading, "is one row more than this sweep has");
+        return sweep_refuse(reading, "is one row more than this sweep has");
     return EXIT_ANSWERED;
 }
 
@@ -415,7 +415,7 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     sweep->count = (unsigned)points;
 }
 
-static void check(const struct sweep *sweep, struct argp_state *state)
+static void sweep_check(const struct sweep *sweep, struct argp_state *state)
 {
     const struct scene_need speeds = {"--speed LO:HI:N", sweep->count > 0};
     scene_check_given(&sweep->scene, &speeds, 1, "", state);
@@ -452,7 +452,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
-        check(sweep, state);
+        sweep_check(sweep, state);
         sweep_measured_read(&sweep->measured, &sweep->scene, plot_wanted(&sweep->plot), state);
         return 0;
     default:

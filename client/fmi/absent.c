@@ -6,7 +6,7 @@
 #include "fmi3.h"
 #include "fmu.h"
 
-static fmi3Status refuse(struct fmu *fmu, const char *function)
+static fmi3Status absent_refuse(struct fmu *fmu, const char *function)
 {
     return fmu ? fmu_error(fmu, "%s: this FMU has nothing for it", function) : fmi3Error;
 }
@@ -27,19 +27,19 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance fmu)
 {
-    return refuse(fmu, "fmi3EnterConfigurationMode");
+    return absent_refuse(fmu, "fmi3EnterConfigurationMode");
 }
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance fmu)
 {
-    return refuse(fmu, "fmi3ExitConfigurationMode");
+    return absent_refuse(fmu, "fmi3ExitConfigurationMode");
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance fmu, fmi3ValueReference reference,
                                                size_t *count)
 {
     (void)reference, (void)count;
-    return refuse(fmu, "fmi3GetNumberOfVariableDependencies");
+    return absent_refuse(fmu, "fmi3GetNumberOfVariableDependencies");
 }
 
 fmi3Status fmi3GetVariableDependencies(fmi3Instance fmu, fmi3ValueReference reference,
@@ -49,7 +49,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance fmu, fmi3ValueReference refe
 {
     (void)reference, (void)elements, (void)independents, (void)independent_elements, (void)kinds,
         (void)count;
-    return refuse(fmu, "fmi3GetVariableDependencies");
+    return absent_refuse(fmu, "fmi3GetVariableDependencies");
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance fmu, const fmi3ValueReference unknowns[],
@@ -60,7 +60,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance fmu, const fmi3ValueReferen
 {
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed,
         (void)seed_count, (void)sensitivity, (void)sensitivity_count;
-    return refuse(fmu, "fmi3GetDirectionalDerivative");
+    return absent_refuse(fmu, "fmi3GetDirectionalDerivative");
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance fmu, const fmi3ValueReference unknowns[],
@@ -70,7 +70,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance fmu, const fmi3ValueReference u
 {
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed,
         (void)seed_count, (void)sensitivity, (void)sensitivity_count;
-    return refuse(fmu, "fmi3GetAdjointDerivative");
+    return absent_refuse(fmu, "fmi3GetAdjointDerivative");
 }
 
 fmi3Status fmi3GetIntervalDecimal(fmi3Instance fmu, const fmi3ValueReference references[],
@@ -78,7 +78,7 @@ fmi3Status fmi3GetIntervalDecimal(fmi3Instance fmu, const fmi3ValueReference ref
                                   fmi3IntervalQualifier qualifiers[])
 {
     (void)references, (void)count, (void)intervals, (void)qualifiers;
-    return refuse(fmu, "fmi3GetIntervalDecimal");
+    return absent_refuse(fmu, "fmi3GetIntervalDecimal");
 }
 
 fmi3Status fmi3GetIntervalFraction(fmi3Instance fmu, const fmi3ValueReference references[],
@@ -86,28 +86,28 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance fmu, const fmi3ValueReference re
                                    fmi3IntervalQualifier qualifiers[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions, (void)qualifiers;
-    return refuse(fmu, "fmi3GetIntervalFraction");
+    return absent_refuse(fmu, "fmi3GetIntervalFraction");
 }
 
 fmi3Status fmi3GetShiftDecimal(fmi3Instance fmu, const fmi3ValueReference references[],
                                size_t count, fmi3Float64 shifts[])
 {
     (void)references, (void)count, (void)shifts;
-    return refuse(fmu, "fmi3GetShiftDecimal");
+    return absent_refuse(fmu, "fmi3GetShiftDecimal");
 }
 
 fmi3Status fmi3GetShiftFraction(fmi3Instance fmu, const fmi3ValueReference references[],
                                 size_t count, fmi3UInt64 counters[], fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return refuse(fmu, "fmi3GetShiftFraction");
+    return absent_refuse(fmu, "fmi3GetShiftFraction");
 }
 
 fmi3Status fmi3SetIntervalDecimal(fmi3Instance fmu, const fmi3ValueReference references[],
                                   size_t count, const fmi3Float64 intervals[])
 {
     (void)references, (void)count, (void)intervals;
-    return refuse(fmu, "fmi3SetIntervalDecimal");
+    return absent_refuse(fmu, "fmi3SetIntervalDecimal");
 }
 
 fmi3Status fmi3SetIntervalFraction(fmi3Instance fmu, const fmi3ValueReference references[],
@@ -115,14 +115,14 @@ fmi3Status fmi3SetIntervalFraction(fmi3Instance fmu, const fmi3ValueReference re
                                    const fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return refuse(fmu, "fmi3SetIntervalFraction");
+    return absent_refuse(fmu, "fmi3SetIntervalFraction");
 }
 
 fmi3Status fmi3SetShiftDecimal(fmi3Instance fmu, const fmi3ValueReference references[],
                                size_t count, const fmi3Float64 shifts[])
 {
     (void)references, (void)count, (void)shifts;
-    return refuse(fmu, "fmi3SetShiftDecimal");
+    return absent_refuse(fmu, "fmi3SetShiftDecimal");
 }
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance fmu, const fmi3ValueReference references[],
@@ -130,7 +130,7 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance fmu, const fmi3ValueReference refer
                                 const fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return refuse(fmu, "fmi3SetShiftFraction");
+    return absent_refuse(fmu, "fmi3SetShiftFraction");
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance fmu, const fmi3ValueReference references[],
@@ -138,11 +138,11 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance fmu, const fmi3ValueReference r
                                     size_t value_count)
 {
     (void)references, (void)count, (void)orders, (void)values, (void)value_count;
-    return refuse(fmu, "fmi3GetOutputDerivatives");
+    return absent_refuse(fmu, "fmi3GetOutputDerivatives");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance fmu, fmi3ValueReference clock, fmi3Float64 time)
 {
     (void)clock, (void)time;
-    return refuse(fmu, "fmi3ActivateModelPartition");
+    return absent_refuse(fmu, "fmi3ActivateModelPartition");
 }

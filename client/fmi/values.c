@@ -17,8 +17,8 @@ static const char *const TYPE_NAMES[] = {
 };
 
 /* The variable of that reference and type; NULL after a message. */
-static const struct variable *find(struct fmu *fmu, fmi3ValueReference reference,
-                                   enum variable_type type)
+static const struct variable *values_find(struct fmu *fmu, fmi3ValueReference reference,
+                                          enum variable_type type)
 {
     if (reference >= MODEL.variable_count) {
         fmu_error(fmu, "value reference %u: there are 0..%zu", (unsigned)reference,
@@ -59,7 +59,7 @@ static bool check_count(struct fmu *fmu, size_t references, size_t values)
 /* Where the value is to be read; NULL after a message. */
 static const void *readable(struct fmu *fmu, fmi3ValueReference reference, enum variable_type type)
 {
-    const struct variable *variable = find(fmu, reference, type);
+    const struct variable *variable = values_find(fmu, reference, type);
     return variable ? fmu->numbers + variable->offset : NULL;
 }
 
@@ -67,7 +67,7 @@ static const void *readable(struct fmu *fmu, fmi3ValueReference reference, enum 
 static void *writable(struct fmu *fmu, fmi3ValueReference reference, enum variable_type type,
                       const struct variable **variable)
 {
-    *variable = find(fmu, reference, type);
+    *variable = values_find(fmu, reference, type);
     return *variable && check_settable(fmu, *variable) ? fmu->numbers + (*variable)->offset : NULL;
 }
 

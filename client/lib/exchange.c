@@ -301,8 +301,8 @@ enum percuss_result exchange_submit(struct percuss_client *client,
 }
 
 /* The outstanding request of that sequence that no other thread waits for. */
-static enum percuss_result find(struct percuss_client *client, uint64_t sequence,
-                                struct pending **pending)
+static enum percuss_result exchange_find(struct percuss_client *client, uint64_t sequence,
+                                         struct pending **pending)
 {
     *pending = pending_find(&client->pending, sequence);
     if (*pending && !(*pending)->waited)
@@ -316,7 +316,7 @@ static enum percuss_result wait_for(struct percuss_client *client, uint64_t sequ
                                     double deadline, struct percuss_reply *reply)
 {
     struct pending *pending;
-    enum percuss_result result = find(client, sequence, &pending);
+    enum percuss_result result = exchange_find(client, sequence, &pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
     pending->waited = true;
@@ -376,7 +376,7 @@ enum percuss_result exchange_cancel(struct percuss_client *client, uint64_t sequ
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
-    enum percuss_result result = find(client, sequence, &pending);
+    enum percuss_result result = exchange_find(client, sequence, &pending);
     if (result == PERCUSS_RESULT_OK) {
         withdraw(client, pending);
         pending_remove(&client->pending, pending);

@@ -16,7 +16,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all */
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static bool is_used, is_forked;
 
-static enum percuss_result refuse(void)
+static enum percuss_result forked_refuse(void)
 {
     return error_set(PERCUSS_RESULT_TRANSPORT,
                      "this process is the child of a fork() by one that used DDS, whose threads "
@@ -52,7 +52,7 @@ static bool has_no_server(struct percuss_client *client, uint8_t server[16])
 static enum percuss_result connect_nobody(struct percuss_client *client, double timeout)
 {
     (void)client, (void)timeout;
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result ping_nobody(struct percuss_client *client, double timeout,
@@ -60,7 +60,7 @@ static enum percuss_result ping_nobody(struct percuss_client *client, double tim
 {
     (void)client, (void)timeout;
     *round_trip = 0.0;
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result solve_nothing(struct percuss_client *client,
@@ -69,7 +69,7 @@ static enum percuss_result solve_nothing(struct percuss_client *client,
 {
     (void)client, (void)request, (void)timeout;
     *reply = (struct percuss_reply){0};
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result trace_nothing(struct percuss_client *client,
@@ -86,7 +86,7 @@ static enum percuss_result solve_no_batch(struct percuss_client *client,
 {
     (void)client, (void)requests, (void)timeout;
     memset(replies, 0, count * sizeof *replies);
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result solve_no_ensemble(struct percuss_client *client,
@@ -96,7 +96,7 @@ static enum percuss_result solve_no_ensemble(struct percuss_client *client,
 {
     (void)client, (void)request, (void)timeout, (void)progress, (void)context;
     *reply = (struct percuss_ensemble_reply){0};
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result submit_nothing(struct percuss_client *client,
@@ -105,7 +105,7 @@ static enum percuss_result submit_nothing(struct percuss_client *client,
     (void)client, (void)request;
     if (sequence)
         *sequence = 0;
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result wait_for_nothing(struct percuss_client *client, uint64_t sequence,
@@ -125,7 +125,7 @@ static enum percuss_result poll_nothing(struct percuss_client *client, uint64_t 
 static enum percuss_result cancel_nothing(struct percuss_client *client, uint64_t sequence)
 {
     (void)client, (void)sequence;
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result no_servers(struct percuss_client *client, double timeout,
@@ -133,7 +133,7 @@ static enum percuss_result no_servers(struct percuss_client *client, double time
 {
     (void)client, (void)timeout;
     *list = (struct percuss_server_list){0};
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result no_bodies(struct percuss_client *client, double timeout,
@@ -141,7 +141,7 @@ static enum percuss_result no_bodies(struct percuss_client *client, double timeo
 {
     (void)client, (void)timeout;
     *list = (struct percuss_body_list){0};
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result no_specimens(struct percuss_client *client, double timeout,
@@ -149,14 +149,14 @@ static enum percuss_result no_specimens(struct percuss_client *client, double ti
 {
     (void)client, (void)timeout;
     *list = (struct percuss_specimen_list){0};
-    return refuse();
+    return forked_refuse();
 }
 
 static enum percuss_result clear_nothing(struct percuss_client *client, const char *name,
                                          double timeout)
 {
     (void)client, (void)name, (void)timeout;
-    return refuse();
+    return forked_refuse();
 }
 
 static void watch_nothing(struct percuss_client *client, percuss_watch_function *watch,
@@ -221,7 +221,7 @@ enum percuss_result forked_check(void)
     bool forked = is_forked;
     is_used = true;
     pthread_mutex_unlock(&lock);
-    return forked ? refuse() : PERCUSS_RESULT_OK;
+    return forked ? forked_refuse() : PERCUSS_RESULT_OK;
 }
 
 void forked_add(struct forked_entry *entry, const struct client_operations **operations)

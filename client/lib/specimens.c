@@ -84,8 +84,8 @@ enum percuss_result specimens_list(struct percuss_client *client, double timeout
 }
 
 /* Whether the server keeps a specimen of that name. */
-static enum percuss_result find(struct percuss_client *client, const char *name, double timeout,
-                                bool *found)
+static enum percuss_result specimens_find(struct percuss_client *client, const char *name,
+                                          double timeout, bool *found)
 {
     struct percuss_specimen_list list;
     enum percuss_result result = specimens_list(client, timeout, &list);
@@ -119,7 +119,7 @@ enum percuss_result specimens_clear(struct percuss_client *client, const char *n
     double deadline;
     enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
-        result = find(client, name, timeout, &found);
+        result = specimens_find(client, name, timeout, &found);
     /* only stored specimens can be cleared */
     if (result == PERCUSS_RESULT_OK && !found)
         result = error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -135,7 +135,7 @@ enum percuss_result specimens_clear(struct percuss_client *client, const char *n
     if (code < 0)
         return failure_dds("writing to " WIRE_TOPIC_DENTS, code);
     /* done when it is not announced any more */
-    while ((result = find(client, name, timeout, &found)) == PERCUSS_RESULT_OK && found) {
+    while ((result = specimens_find(client, name, timeout, &found)) == PERCUSS_RESULT_OK && found) {
         if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT, "the server has not cleared %s", name);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);

@@ -179,7 +179,7 @@ enum percuss_result percuss_ensemble_worker_solve(struct percuss_ensemble_worker
     return PERCUSS_RESULT_OK;
 }
 
-static enum percuss_result refuse(const char *why)
+static enum percuss_result ensemble_refuse(const char *why)
 {
     return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "part: %s", why);
 }
@@ -191,23 +191,24 @@ enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *shari
     if (ERROR_NULL(sharing, part))
         return PERCUSS_RESULT_INVALID_ARGUMENT;
     if (size < sizeof head)
-        return refuse("too short");
+        return ensemble_refuse("too short");
     memcpy(&head, part, sizeof head);
     if (memcmp(head.kind, KIND, sizeof head.kind) != 0 || head.extras > 1)
-        return refuse("no part of an ensemble, or of another version");
+        return ensemble_refuse("no part of an ensemble, or of another version");
     if (memcmp(&head.ensemble, &sharing->digest, sizeof head.ensemble) != 0)
-        return refuse("of another request, another catalogue or another version of percuss");
+        return ensemble_refuse(
+            "of another request, another catalogue or another version of percuss");
     size_t item = item_size(head.extras);
     if (head.count > size / item || size != sizeof head + head.count * item)
-        return refuse("of another length than it says");
+        return ensemble_refuse("of another length than it says");
     const char *octets = (const char *)part + sizeof head;
     struct digest seal = seal_part(&head, octets, head.count * item);
     if (memcmp(&head.seal, &seal, sizeof seal) != 0)
-        return refuse("damaged on its way");
+        return ensemble_refuse("damaged on its way");
     const struct ensemble_range range = {head.extras, head.done, head.first,
                                          head.first + head.count};
     if (!ensemble_asks_for(sharing->run, &range))
-        return refuse("of items that are not asked for");
+        return ensemble_refuse("of items that are not asked for");
     /* octets from elsewhere lie anywhere */
     void *items = malloc(head.count * item + 1);
     if (!items)

@@ -41,7 +41,7 @@ void local_free(struct percuss_client *client)
     free(client);
 }
 
-static enum percuss_result refuse(enum percuss_status status, const struct fault *fault)
+static enum percuss_result open_refuse(enum percuss_status status, const struct fault *fault)
 {
     return error_set(status == PERCUSS_INTERNAL ? PERCUSS_RESULT_NO_MEMORY
                                                 : PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -60,7 +60,7 @@ static enum percuss_result read_settings(const struct percuss_local_config *conf
     enum percuss_status status = path ? settings_load(path, settings, &fault) : PERCUSS_OK;
     free(shipped);
     if (status)
-        return refuse(status, &fault);
+        return open_refuse(status, &fault);
     /* without given settings there is no limit of time: answers depend on no clock */
     if (!config->settings)
         settings->limit_seconds = settings->token_minutes = INFINITY;
@@ -103,7 +103,7 @@ static enum percuss_result load(struct percuss_client *client)
     enum percuss_status status = snapshots_open(&client->snapshots, settings->catalogue,
                                                 &client->tables, settings->bodies, &fault);
     if (status)
-        return refuse(status, &fault);
+        return open_refuse(status, &fault);
     client->snapshot = snapshots_hold(&client->snapshots);
     client->tokens = token_store_create(&tokens);
     if (!client->tokens)
@@ -112,7 +112,7 @@ static enum percuss_result load(struct percuss_client *client)
     if (!settings->shipped && settings->store[0])
         status = specimen_store_open(settings->store, settings->stored_replies, &client->specimens,
                                      &fault);
-    return status ? refuse(status, &fault) : load_tables(client);
+    return status ? open_refuse(status, &fault) : load_tables(client);
 }
 
 enum percuss_result percuss_local_open(const struct percuss_local_config *config,

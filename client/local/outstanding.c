@@ -185,7 +185,7 @@ struct outstanding {
 };
 
 /* The question of that number, or with 0 the first that no thread solves; the lock is held. */
-static struct outstanding *find(struct percuss_client *client, uint64_t sequence)
+static struct outstanding *outstanding_find(struct percuss_client *client, uint64_t sequence)
 {
     struct outstanding *one = client->first;
     while (one && (sequence ? one->sequence != sequence : one->taken))
@@ -228,7 +228,7 @@ void outstanding_clear(struct percuss_client *client)
 /* Enters a question; the lock is held. One that is outstanding already is asked once. */
 static enum percuss_result enter(struct percuss_client *client, struct outstanding *one)
 {
-    struct outstanding *same = find(client, one->sequence);
+    struct outstanding *same = outstanding_find(client, one->sequence);
     if (same && same->taken)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "sequence: %llu: another thread waits for it",
@@ -275,7 +275,7 @@ enum percuss_result local_submit(struct percuss_client *client,
 static enum percuss_result take(struct percuss_client *client, uint64_t sequence,
                                 struct outstanding **one)
 {
-    *one = find(client, sequence);
+    *one = outstanding_find(client, sequence);
     if (!*one && sequence == 0)
         return error_set(PERCUSS_RESULT_UNKNOWN_SEQUENCE, "no request is outstanding");
     if (*one && !(*one)->taken)

@@ -354,7 +354,7 @@ struct percuss_slow_config percuss_slow_config_default(void)
     };
 }
 
-static enum percuss_result check(const struct percuss_slow_config *config)
+static enum percuss_result slowscale_check(const struct percuss_slow_config *config)
 {
     const enum percuss_result bad = PERCUSS_RESULT_INVALID_ARGUMENT;
     if (config->body_count == 0 || !config->bodies)
@@ -389,7 +389,7 @@ enum percuss_result percuss_slow_create(const struct percuss_slow_config *config
         *slow = NULL;
     enum percuss_result result = SLOW_NULL(config, slow);
     if (!result)
-        result = check(config);
+        result = slowscale_check(config);
     if (result)
         return result;
     struct percuss_slow *made = calloc(1, sizeof *made);

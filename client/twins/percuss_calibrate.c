@@ -36,8 +36,8 @@ static enum percuss_result check_parameter(const struct percuss_pair *pair,
     return PERCUSS_RESULT_OK;
 }
 
-static enum percuss_result check(const struct percuss_pair *pair,
-                                 const struct percuss_calibration *calibration)
+static enum percuss_result percuss_calibrate_check(const struct percuss_pair *pair,
+                                                   const struct percuss_calibration *calibration)
 {
     size_t count = calibration->parameter_count;
     if (count < 1 || count > PERCUSS_MAX_FITTED)
@@ -157,7 +157,7 @@ enum percuss_result percuss_measured_calibrate(const struct percuss_measured *me
         fine.options.tolerance = FITTING_TOLERANCE;
     enum percuss_result result = report_check(question);
     if (result == PERCUSS_RESULT_OK)
-        result = check(&question->pair, calibration);
+        result = percuss_calibrate_check(&question->pair, calibration);
     if (result != PERCUSS_RESULT_OK)
         return result;
     result = report_begin(measured, &fine, &report);

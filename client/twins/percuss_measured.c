@@ -13,7 +13,7 @@
 #include "report.h"
 
 /* All errors of a file, a line each. */
-static enum percuss_result refuse(const struct measured_remarks *remarks)
+static enum percuss_result percuss_measured_refuse(const struct measured_remarks *remarks)
 {
     char text[REMARKS_KEPT * sizeof remarks->error[0]];
     size_t length = 0, kept = remarks->errors < REMARKS_KEPT ? remarks->errors : REMARKS_KEPT;
@@ -50,7 +50,7 @@ enum percuss_result percuss_measured_read(const char *file, size_t column_count,
         *measured = made;
         return PERCUSS_RESULT_OK;
     }
-    enum percuss_result result = refuse(&made->remarks);
+    enum percuss_result result = percuss_measured_refuse(&made->remarks);
     percuss_measured_free(made);
     return result;
 }

@@ -185,8 +185,9 @@ static bool parse_token(const char *token, struct digest *key)
     return true;
 }
 
-static struct stored_state *find(struct token_store *store, const char *token,
-                                 const struct token_subject *subject, struct fault *fault)
+static struct stored_state *token_store_find(struct token_store *store, const char *token,
+                                             const struct token_subject *subject,
+                                             struct fault *fault)
 {
     struct digest key;
     /* any state of that token */
@@ -219,7 +220,7 @@ const struct body_state *token_store_hold(struct token_store *store, const char 
 {
     pthread_mutex_lock(&store->lock);
     drop_excess(store, now);
-    struct stored_state *stored = find(store, token, subject, fault);
+    struct stored_state *stored = token_store_find(store, token, subject, fault);
     if (stored) {
         stored->holders++;
         touch(store, stored, now);

@@ -392,8 +392,8 @@ static struct answer *report_samples(struct ensemble_run *run, const struct enve
     return answer;
 }
 
-static struct answer *refuse(const struct envelope *envelope, enum percuss_status status,
-                             const char *message)
+static struct answer *ensemble_answer_refuse(const struct envelope *envelope,
+                                             enum percuss_status status, const char *message)
 {
     struct answer *answer = encode_ensemble_refusal(envelope, status, message);
     if (answer && status == PERCUSS_TRUNCATED)
@@ -410,15 +410,15 @@ static struct answer *carry_out(struct ensemble_run *run)
     if (!status)
         status = create_workers(run, &fault);
     if (status)
-        return refuse(envelope, status, fault.text);
+        return ensemble_answer_refuse(envelope, status, fault.text);
     /* the samples, and the reply on them */
     tell_progress(run, 0);
     solve_samples(run);
     bool good = solve_extras(run);
     struct answer *answer = NULL;
     if (good && !run->gone)
-        answer =
-            run->done ? report_samples(run, envelope) : refuse(envelope, run->cut, run->message);
+        answer = run->done ? report_samples(run, envelope)
+                           : ensemble_answer_refuse(envelope, run->cut, run->message);
     if (good && run->done && run->request->list_samples && !run->gone)
         good =
             run->means->list(run->means->context, &run->prepared.ensemble, run->samples, run->done);
@@ -426,8 +426,8 @@ static struct answer *carry_out(struct ensemble_run *run)
         return answer;
     /* a client that has come back meanwhile gets the refusal */
     answer_release(answer);
-    return good ? refuse(envelope, PERCUSS_TIMEOUT, ENSEMBLE_CLIENT_GONE)
-                : refuse(envelope, PERCUSS_INTERNAL, "out of memory");
+    return good ? ensemble_answer_refuse(envelope, PERCUSS_TIMEOUT, ENSEMBLE_CLIENT_GONE)
+                : ensemble_answer_refuse(envelope, PERCUSS_INTERNAL, "out of memory");
 }
 
 static void release(struct ensemble_run *run)

@@ -113,7 +113,7 @@ static bool goes_on(void *context, double done)
     return still_wanted(inquiry, "within the solve");
 }
 
-static struct answer *refuse(const struct inquiry *inquiry)
+static struct answer *responder_refuse(const struct inquiry *inquiry)
 {
     return encode_refusal(&inquiry->question->envelope, inquiry->status, inquiry->fault.text);
 }
@@ -205,7 +205,7 @@ static struct answer *compute(struct responder *responder, const struct question
     struct inquiry inquiry = {&responder->means, question, clock_now(), PERCUSS_OK, {""}};
     /* the client may want it no more */
     if (!still_wanted(&inquiry, "before the solve began"))
-        return refuse(&inquiry);
+        return responder_refuse(&inquiry);
     /* the solve, as long as it does */
     const struct solve_context means = {
         question->snapshot->set,
@@ -224,7 +224,7 @@ static struct answer *compute(struct responder *responder, const struct question
     if (!inquiry.status)
         inquiry.status = check_deadline(question, "when the solve ended", &inquiry.fault);
     if (inquiry.status)
-        return refuse(&inquiry);
+        return responder_refuse(&inquiry);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
     /* the reply on it */

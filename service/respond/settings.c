@@ -280,7 +280,7 @@ static enum percuss_status read_value(struct reader *reader, const yaml_node_t *
     return good ? PERCUSS_OK : reader_refuse_value(reader, value, allowed_of(setting).text);
 }
 
-static const struct setting *find(const char *path)
+static const struct setting *settings_find(const char *path)
 {
     for (size_t i = 0; i < SETTING_COUNT; i++) {
         if (strcmp(table[i].path, path) == 0)
@@ -324,7 +324,7 @@ static enum percuss_status read_mapping(struct reader *reader, const yaml_node_t
             entry.key->type == YAML_SCALAR_NODE)
             return reader_refuse(reader, entry.key, "stands twice: must stand once");
         /* a setting, a section of them, or nothing that is known */
-        const struct setting *setting = find(reader->path);
+        const struct setting *setting = settings_find(reader->path);
         enum percuss_status status;
         if (setting)
             status = read_value(reader, entry.value, setting, settings);

@@ -12,8 +12,8 @@
 
 _Static_assert(sizeof(enum support) == sizeof(unsigned), "choices are stored as unsigned numbers");
 
-static enum percuss_status refuse(const struct reader *reader, const yaml_node_t *value,
-                                  const struct key *key)
+static enum percuss_status keys_refuse(const struct reader *reader, const yaml_node_t *value,
+                                       const struct key *key)
 {
     return reader_refuse_quantity(
         reader, value, key->limit ? key->limit->quantity : QUANTITY_NUMBER, key_allowed(key).text);
@@ -102,7 +102,7 @@ static enum percuss_status read_list(struct reader *reader, const yaml_node_t *l
     one.type = key->type == KEY_ENDS ? KEY_WORD : KEY_NUMBER;
     size_t stride = key->type == KEY_ENDS ? sizeof(unsigned) : sizeof(double);
     if (list->type != YAML_SEQUENCE_NODE || reader_count(list) != count)
-        return refuse(reader, list, key);
+        return keys_refuse(reader, list, key);
     for (size_t i = 0; i < count; i++) {
         char index[24];
         snprintf(index, sizeof index, "[%zu]", i);
@@ -122,10 +122,11 @@ static enum percuss_status read_damping(struct reader *reader, const yaml_node_t
                                         const struct key *key, struct body *body)
 {
     if (value->type != YAML_SEQUENCE_NODE)
-        return read_number(value, key, &body->damping) ? PERCUSS_OK : refuse(reader, value, key);
+        return read_number(value, key, &body->damping) ? PERCUSS_OK
+                                                       : keys_refuse(reader, value, key);
     size_t count = reader_count(value);
     if (count == 0)
-        return refuse(reader, value, key);
+        return keys_refuse(reader, value, key);
     body->damping_shares = calloc(count, sizeof *body->damping_shares);
     if (!body->damping_shares)
         return fault_set(reader->fault, PERCUSS_INTERNAL, "%s: out of memory",
@@ -229,7 +230,7 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
         good = value->type == YAML_MAPPING_NODE;
         break;
     }
-    return good ? PERCUSS_OK : refuse(reader, value, key);
+    return good ? PERCUSS_OK : keys_refuse(reader, value, key);
 }
 
 static enum percuss_status refuse_key(const struct reader *reader, const yaml_node_t *key,
@@ -309,7 +310,7 @@ enum percuss_status keys_read(struct reader *reader, struct entry entry,
 {
     if (entry.value->type != YAML_MAPPING_NODE) {
         const struct key whole = {.type = KEY_SECTION, .nested = table};
-        return refuse(reader, entry.value, &whole);
+        return keys_refuse(reader, entry.value, &whole);
     }
     for (size_t i = 0; i < reader_count(entry.value); i++) {
         struct entry item = reader_entry(reader, entry.value, i);

@@ -374,8 +374,8 @@ static bool is_loading(const struct region *region, const struct target *target)
 
 /* Newton's method failed in steps however short. Where bodies flow long before the finest element
  * is in contact, it does. */
-static enum percuss_status refuse(const struct region *region, const struct target *target,
-                                  double value, struct fault *fault)
+static enum percuss_status region_refuse(const struct region *region, const struct target *target,
+                                         double value, struct fault *fault)
 {
     if (region->first_yield < REGION_FINEST * region->top)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -418,7 +418,7 @@ static enum percuss_status reach(struct region *region, const struct target *tar
             return fault_set(fault, PERCUSS_TIMEOUT, "contact region: stopped");
         part *= 0.5;
         if (part < ldexp(1.0, -HALVINGS_MAX) || target->kind == BY_EDGE)
-            return refuse(region, target, next.value, fault);
+            return region_refuse(region, target, next.value, fault);
     }
     /* far from the boundary of the mesh still */
     for (int k = 0; k < 2; k++)

@@ -242,7 +242,7 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
     }
 }
 
-static void check(struct argp_state *state, const struct options *options)
+static void options_check(struct argp_state *state, const struct options *options)
 {
     bool numbers = !isnan(options->young) || !isnan(options->poisson) || !isnan(options->density);
     if (!options->file)
@@ -285,7 +285,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_END:
         read_lengths(state, options);
-        check(state, options);
+        options_check(state, options);
         return 0;
     /* materials, matrices and method */
     default:

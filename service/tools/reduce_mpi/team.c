@@ -28,7 +28,7 @@ static struct member *begin(struct member **members, uint64_t key)
 }
 
 /* The pointer to a member, which the first process has made. */
-static struct member **find(struct member **members, uint64_t key)
+static struct member **team_find(struct member **members, uint64_t key)
 {
     while ((*members)->key != key)
         members = &(*members)->next;
@@ -69,16 +69,16 @@ void team_follow(void)
             spread_make(&begin(&members, order.key)->spread, NULL, order.positive, &outcome);
             break;
         case TEAM_COMPUTE:
-            spread_compute(&(*find(&members, order.key))->spread, order.shift, &outcome);
+            spread_compute(&(*team_find(&members, order.key))->spread, order.shift, &outcome);
             break;
         case TEAM_SOLVE:
-            spread_solve(&(*find(&members, order.key))->spread, order.count, NULL, &outcome);
+            spread_solve(&(*team_find(&members, order.key))->spread, order.count, NULL, &outcome);
             break;
         case TEAM_MODES:
-            seek_modes(&(*find(&members, order.key))->spread, &order);
+            seek_modes(&(*team_find(&members, order.key))->spread, &order);
             break;
         case TEAM_FREE:
-            finish(find(&members, order.key));
+            finish(team_find(&members, order.key));
             break;
         case TEAM_END:
             /* the remaining ones */
