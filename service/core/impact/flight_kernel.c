@@ -67,25 +67,8 @@ static inline void add_damped(const struct flight_modes *modes, double scale, in
 }
 
 /* Undamped modes, for either width. */
-#define VECTOR     half
-#define WIDTH      2
-#define FOLD       FOLD_HALVES
-#define PASS(name) name##_narrow
-#define PASS_UNIT
-#include "impact/flight_passes.h"
-#ifdef VECTOR_WIDE
-#undef VECTOR
-#undef WIDTH
-#undef FOLD
-#undef PASS
-#undef PASS_UNIT
-#define VECTOR     lanes
-#define WIDTH      LANES
-#define FOLD       FOLD_LANES
-#define PASS(name) name##_wide
-#define PASS_UNIT  VECTOR_WIDE
-#include "impact/flight_passes.h"
-#endif
+#define SIMD_PASSES "impact/flight_passes.h"
+#include "impact/simd_widths.h"
 
 VECTOR_CLONES static void damped_derivatives(const struct flight_modes *modes,
                                              double sums[SCAN_TERMS])

@@ -120,25 +120,8 @@ static inline void add_up(half cosine, half sine, double end, double sums[STEP_P
 }
 
 /* Passes over undamped modes, for either width. */
-#define VECTOR     half
-#define WIDTH      2
-#define FOLD       FOLD_HALVES
-#define PASS(name) name##_narrow
-#define PASS_UNIT
-#include "impact/middle_passes.h"
-#ifdef VECTOR_WIDE
-#undef VECTOR
-#undef WIDTH
-#undef FOLD
-#undef PASS
-#undef PASS_UNIT
-#define VECTOR     lanes
-#define WIDTH      LANES
-#define FOLD       FOLD_LANES
-#define PASS(name) name##_wide
-#define PASS_UNIT  VECTOR_WIDE
-#include "impact/middle_passes.h"
-#endif
+#define SIMD_PASSES "impact/middle_passes.h"
+#include "impact/simd_widths.h"
 
 void kernel_dot2(size_t length, const double *a, const double *x, const double *y, double *ax,
                  double *ay)

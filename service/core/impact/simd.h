@@ -30,7 +30,7 @@ typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(
 /* Two folded sums. */
 #define FOLD_BOTH(x, y) (__builtin_shufflevector(x, y, 0, 2) + __builtin_shufflevector(x, y, 1, 3))
 
-/* The function of a name for the processor's width. */
+/* The function of a name for the processor's width, of passes that simd_widths.h includes. */
 #ifdef VECTOR_WIDE
 #define FOLD_EITHER(name) (VECTOR_IS_WIDE ? name##_wide : name##_narrow)
 #else

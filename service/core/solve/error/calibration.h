@@ -91,8 +91,8 @@ static const double STRAIN_MODES = 0.1;
 static const double STRAIN_MODELS = 0.05;
 static const double STRAIN_MODELS_GROUP = 0.2;
 static const double STRAIN_MODELS_CURVED = 0.5;
-/* ---- Models, over modes and steps: build/tests/models, build/tests/sides, independent/campaign
- * ---- */
+
+/* ---- Models: build/tests/models, build/tests/sides, ctest -R independent/campaign ---- */
 
 /* Change of e per unit of the stiffness's logarithm, of a single contact: by the share s of the
  * energy that vibrates, at most LOST s + SWUNG sqrt(s) of 97 in 100 random bars (waves that leave;
@@ -132,10 +132,10 @@ static const double NEAREST_EDGE = 0.05;
 /* Of a mesh nearer to a sharp edge than an element, times E and the distance: neighbouring points
  * of a wall of one element differ by so much (there an edge itself is worth 0.27). */
 static const double NEAR_MESH_EDGE = 0.5;
-/* Frequencies of a bar's theory, share by (radius / way of a wave during the contact): its square
- * for rods without (1) and with lateral inertia and beams with Hutchinson's shear factor (1; 1e-3
- * at 29 kHz of a bar of 10 mm); itself for another one (1e-2 there) and without shear, where the
- * error goes with the wave number's square, that is with the frequency. */
+/* Frequencies of a bar's theory, share by r = radius / way of a wave during the contact: r^2 for
+ * rods and for beams with Hutchinson's shear factor (1e-3 at 29 kHz of a bar of 10 mm), r^2 times
+ * this for rods with lateral inertia; r times this for beams with Cowper's factor (1e-2 there) and
+ * without shear, where the error goes with the wave number's square, that is with the frequency. */
 static const double THEORY_RAYLEIGH_LOVE = 0.5;
 static const double THEORY_COWPER = 0.25;
 static const double THEORY_WITHOUT_SHEAR = 5.0;
@@ -143,10 +143,11 @@ static const double THEORY_WITHOUT_SHEAR = 5.0;
  * its theory, by the square of (half section / distance). Of 120 impacts on clamped bars of 6 to 24
  * depths and the same as blocks 103 were covered without this. */
 static const double NEAR_CLAMP = 0.16;
+
 /* ---- Contact laws that yield: build/tests/plastic, physics/test_family ---- */
 
-/* Error of the family between its places where nothing else limits it, and adds where both
- * bodies flow and only one of them is in it: against finer meshes. */
+/* Error of the family between its places, and once more where both bodies flow, as only one of them
+ * is in it: against finer meshes. */
 static const double LAW_FAMILY = 0.004;
 /* A table of just the two materials, against complete meshes, besides its own mesh's error. */
 static const double LAW_OWN_TABLE = 0.002;
@@ -173,6 +174,8 @@ static const double MOST_WORK = 3e7;
 static const double MOST_WORK_CVODE = 4e9;
 /* Times the answer's own work that a perturbed solution may take. */
 static const double PERTURBED_WORK = 10.0;
+/* Share of that work which shorter steps get at least where those before lose the energy. */
+static const double LAST_WORK = 0.5;
 /* Finest accuracy of time steps that is tried. */
 static const double FINEST_STEPS = 1e-17;
 /* Share of the approach's energy that the work of acceleration may be in a single impact. */

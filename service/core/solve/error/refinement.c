@@ -586,7 +586,7 @@ static enum percuss_status estimate_steps(struct attempt_context *context,
 }
 
 /* A hundred times finer steps. A solution that does not keep its energy is no answer: shorter steps
- * get all of the effort then. *found: it replaced the one before. */
+ * get more of the effort then. *found: it replaced the one before. */
 static enum percuss_status shorten(struct attempt_context *context, struct attempt *best,
                                    bool keeps_energy, bool *found)
 {
@@ -594,7 +594,7 @@ static enum percuss_status shorten(struct attempt_context *context, struct attem
     double allowed = attempt_work_allowed(context->problem->request->options.method);
     finer.accuracy = fmax(best->accuracy / LONGER_STEPS, FINEST_STEPS);
     if (!keeps_energy)
-        context->work = allowed;
+        context->work = fmax(context->work, LAST_WORK * allowed);
     enum percuss_status status = best->log
                                      ? attempt_run_logged(context, &finer, &best->assembly->scene)
                                      : attempt_run(context, &finer, &best->assembly->scene);

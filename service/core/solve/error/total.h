@@ -1,12 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Adds the errors of an answer up. Of the impulses and of the velocities that they leave a contact
- * alone has the error of its restitution times its impulse of compression. Of a group that error
- * says little: it is that of the contact where it is largest, over an impulse of compression that
- * may be next to nothing. Each contact of a group has the distances of its own impulse from those
- * of other solutions (neighbours.h, models.h), and the error of the bodies' states as its
- * restitution has it. A body's velocity may be wrong by the effect of all its contacts together. */
+/* Adds the errors of an answer up.
+ *
+ * The impulse of a single contact has the error of its restitution times its impulse of
+ * compression. Of a group that error says little: it is that of the contact where it is largest,
+ * over an impulse of compression that may be next to nothing. Each contact of a group has the
+ * distances of its own impulse from those of other solutions (neighbours.h, models.h), and the
+ * error of the bodies' states as its restitution has it. A body's velocity may be wrong by the
+ * effect of all its contacts together. */
 #ifndef PERCUSS_SOLVE_ERROR_TOTAL_H
 #define PERCUSS_SOLVE_ERROR_TOTAL_H
 
