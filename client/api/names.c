@@ -73,6 +73,18 @@ const char *percuss_delassus_source_name(unsigned source)
     return name_of(names, COUNT(names), source);
 }
 
+const char *percuss_friction_name(unsigned friction)
+{
+    static const char *const names[] = {PERCUSS_FRICTION_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), friction);
+}
+
+const char *percuss_friction_state_name(unsigned state)
+{
+    static const char *const names[] = {PERCUSS_FRICTION_STATE_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), state);
+}
+
 const char *percuss_distribution_name(unsigned distribution)
 {
     static const char *const names[] = {PERCUSS_DISTRIBUTION_LIST(NAME_TEXT)};

@@ -64,6 +64,8 @@ struct json_member {
 #define JSON_MEMBER_VALUE(name, what) JSON_MEMBER_NUMBER(name, -INFINITY, INFINITY, what)
 #define JSON_MEMBER_VECTOR(name, most, what)                                                       \
     JSON_ROW(name, VECTOR, 3, what, .low = -(most), .high = most)
+#define JSON_MEMBER_PAIR(name, what)                                                               \
+    JSON_ROW(name, VECTOR, 2, what, .low = -INFINITY, .high = INFINITY)
 #define JSON_MEMBER_UNIT(name, count, what) JSON_ROW(name, VECTOR, count, what)
 #define JSON_MEMBER_ID(name, what)          JSON_MEMBER_TEXT(name, what)
 #define JSON_MEMBER_TEXT(name, what)        JSON_ROW(name, TEXT, sizeof JSON_AT(name), what)

@@ -14,9 +14,12 @@
 #define SAME_END(name, text)    SAME(Answer_END_REASON_##name, (unsigned)PERCUSS_END_##name);
 #define SAME_SOURCE(name, text)                                                                    \
     SAME(Answer_DELASSUS_SOURCE_##name, (unsigned)PERCUSS_DELASSUS_##name);
+#define SAME_STATE(name, text)                                                                     \
+    SAME(SubImpact_FRICTION_STATE_##name, (unsigned)PERCUSS_FRICTION_STATE_##name);
 PERCUSS_STATUS_LIST(SAME_STATUS)
 PERCUSS_END_REASON_LIST(SAME_END)
 PERCUSS_DELASSUS_SOURCE_LIST(SAME_SOURCE)
+PERCUSS_FRICTION_STATE_LIST(SAME_STATE)
 
 struct give_piece {
     struct give_piece *before;
@@ -57,6 +60,7 @@ void give_pieces_free(struct give_pieces *pieces)
     to->name.x = from->name[0];                                                                    \
     to->name.y = from->name[1];                                                                    \
     to->name.z = from->name[2];
+#define GIVE_PAIR(name, ...) memcpy(to->name, from->name, sizeof to->name);
 /* And those with members of their own. */
 #define GIVE_OBJECT(name, element, ...)                                                            \
     if (!give_##element(pieces, &from->name, &to->name))                                           \

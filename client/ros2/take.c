@@ -14,12 +14,14 @@
 #define SAME_METHOD(name, text)    SAME(Options_METHOD_##name, (unsigned)PERCUSS_METHOD_##name);
 #define SAME_COMPLIANCE(name, text)                                                                \
     SAME(Options_COMPLIANCE_##name, (unsigned)PERCUSS_COMPLIANCE_##name);
-#define SAME_DENTS(name, text) SAME(Options_DENTS_##name, (unsigned)PERCUSS_DENTS_##name);
+#define SAME_DENTS(name, text)    SAME(Options_DENTS_##name, (unsigned)PERCUSS_DENTS_##name);
+#define SAME_FRICTION(name, text) SAME(Options_FRICTION_##name, (unsigned)PERCUSS_FRICTION_##name);
 PERCUSS_PARAMETER_LIST(SAME_PARAMETER)
 PERCUSS_CONTACT_MODEL_LIST(SAME_MODEL)
 PERCUSS_METHOD_LIST(SAME_METHOD)
 PERCUSS_COMPLIANCE_LIST(SAME_COMPLIANCE)
 PERCUSS_DENTS_LIST(SAME_DENTS)
+PERCUSS_FRICTION_LIST(SAME_FRICTION)
 
 /* Copies a member from *from to *to; the texts of body `index` may be too long. */
 #define TAKE(kind, name, ...)     TAKE_##kind(name, __VA_ARGS__)
@@ -95,7 +97,8 @@ static void take_options(const percuss_msgs_msg_dds__Options_ *from, struct perc
                                    .compliance = from->compliance,
                                    .dents = from->dents,
                                    .conditioning = from->conditioning,
-                                   .deadline = from->deadline};
+                                   .deadline = from->deadline,
+                                   .friction = from->friction};
 }
 
 bool take_question(const percuss_msgs_msg_dds__Question_ *question, struct percuss_request *request,

@@ -55,9 +55,12 @@ bool question_make(const struct percuss_slow *slow, const struct group *group, d
     request->contact_count = group->count;
     request->delassus = group->delassus;
     request->options = slow->config.options;
+    /* an engine is handed impulses along the normals alone */
+    request->options.friction = PERCUSS_FRICTION_NONE;
     for (size_t i = 0; i < group->count; i++) {
         const struct percuss_slow_contact *from = &group->contacts[i];
         struct percuss_contact *to = &request->contacts[i];
+        *to = (struct percuss_contact){0};
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
         to->gap = from->gap;

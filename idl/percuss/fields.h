@@ -11,12 +11,11 @@
  *   DEFAULTED, name, lowest, highest, what  the same, or 0 for the default
  *   VALUE, name, what                       a double that is NAN, or null, where it is undefined
  *   VECTOR, name, limit, what               double[3], each at most `limit` in magnitude
- *   UNIT, name, size, what                  double[size] of norm 1
- *   ID, name, what                          char[PERCUSS_ID_SIZE], not empty
- *   TEXT, name, what                        char[]
- *   OCTETS, name, what                      uint8_t[16]
- *   INDEX, name, what                       uint32_t, into the bodies
- *   COUNT, name, what                       uint32_t or, of the solver, something wider
+ *   PAIR, name, what                        double[2], along the tangents of a contact; undefined
+ * as VALUE UNIT, name, size, what                  double[size] of norm 1 ID, name, what
+ * char[PERCUSS_ID_SIZE], not empty TEXT, name, what                        char[] OCTETS, name,
+ * what                      uint8_t[16] INDEX, name, what                       uint32_t, into the
+ * bodies COUNT, name, what                       uint32_t or, of the solver, something wider
  *   LONG_COUNT, name, what                  uint64_t
  *   CHOICE, name, choice, count, what       a number of vocabulary.h, of an `enum percuss_<choice>`
  *   FLAG, name, what                        bool
@@ -54,6 +53,7 @@
 #define PERCUSS_COPY_CHOICE(name)     to->name = from->name;
 #define PERCUSS_COPY_FLAG(name)       to->name = from->name;
 #define PERCUSS_COPY_VECTOR(name)     PERCUSS_COPY_ARRAY(name)
+#define PERCUSS_COPY_PAIR(name)       PERCUSS_COPY_ARRAY(name)
 #define PERCUSS_COPY_UNIT(name)       PERCUSS_COPY_ARRAY(name)
 #define PERCUSS_COPY_ID(name)         PERCUSS_COPY_ARRAY(name)
 #define PERCUSS_COPY_TEXT(name)       PERCUSS_COPY_ARRAY(name)

@@ -15,7 +15,11 @@
     F(VALUE, max_indentation, "m")                                                                 \
     F(VALUE, gap_rate_before, "m/s")                                                               \
     F(VALUE, gap_rate_after, "m/s")                                                                \
-    F(FLAG, negligible, "below 1 % of the contact's impulse")
+    F(FLAG, negligible, "below 1 % of the contact's impulse")                                      \
+    F(PAIR, impulse_tangential, "N s; on body a, along the contact's two tangents")                \
+    F(PAIR, slip_before, "m/s; of a's point against b's, vibration not included")                  \
+    F(PAIR, slip_after, "m/s")                                                                     \
+    F(CHOICE, friction_state, friction_state, PERCUSS_FRICTION_STATE_COUNT, "how it slid")
 
 #define PERCUSS_CONTACT_RESULT_FIELDS(F, L)                                                        \
     F(VALUE, impulse, "N s; of all sub-impacts")                                                   \
@@ -26,7 +30,21 @@
     F(VALUE, end_time, "s; end of the last sub-impact")                                            \
     F(COUNT, sub_impact_count, "exact, however many are listed")                                   \
     L(LIST, sub_impacts, sub_impacts_listed, sub_impact, "at most 256; 16 in a batch")             \
-    F(VALUE, impulse_error, "N s; of the impulse: time, modes and models together")
+    F(VALUE, impulse_error, "N s; of the impulse: time, modes and models together")                \
+    F(VALUE, friction, "coefficient that was used; 0: none")                                       \
+    F(VECTOR, tangent, INFINITY,                                                                   \
+      "world; first tangent, the second is normal x tangent; zero without friction")               \
+    F(PAIR, impulse_tangential, "N s; on body a, along the two tangents")                          \
+    F(VALUE, impulse_tangential_error, "N s; of its size: time, modes and models together")        \
+    F(PAIR, slip_before,                                                                           \
+      "m/s; of a's point against b's, vibration not included; zero without friction")              \
+    F(PAIR, slip_after, "m/s; the same after the impact")                                          \
+    F(VALUE, tangential_restitution,                                                               \
+      "minus the slip after over the slip before, along it; undefined without slip or friction")   \
+    F(VALUE, restitution_kinematic, "minus the gap rate after over that before; one contact only") \
+    F(VALUE, restitution_energetic,                                                                \
+      "root of the normal force's work in release over that in compression; one contact only")     \
+    F(CHOICE, friction_state, friction_state, PERCUSS_FRICTION_STATE_COUNT, "how it slid")
 
 #define PERCUSS_BODY_VELOCITY_FIELDS(F, ...)                                                       \
     F(ID, id, "of the body")                                                                       \
@@ -49,6 +67,7 @@
     L(LIST, vibration, vibration_count, body_energy, "of each body")                               \
     F(VALUE, damping, "J; with the waves that leave through half-spaces")                          \
     F(VALUE, plastic, "J")                                                                         \
+    F(VALUE, friction, "J; lost by sliding in the contacts")                                       \
     F(VALUE, stored, "J")                                                                          \
     F(VALUE, closure, "J; available less all the others: a check of the solution")
 

@@ -17,7 +17,7 @@
     F(TEXT, specimen, "durable object on a rig; empty: none")                                      \
     L(OVERRIDES, overrides, override_count, "in this request instead of the catalogue's")
 
-#define PERCUSS_CONTACT_FIELDS(F, ...)                                                             \
+#define PERCUSS_CONTACT_PLACE_FIELDS(F, ...)                                                       \
     F(INDEX, a, "into bodies")                                                                     \
     F(INDEX, b, "into bodies")                                                                     \
     F(VECTOR, point, 1e6, "m; world")                                                              \
@@ -25,8 +25,20 @@
     F(NUMBER, gap, -1e3, 1e3, "m; negative: the bodies overlap already")                           \
     F(NUMBER, gap_acceleration, -1e9, 1e9, "m/s^2; n.(a_A - a_B), negative presses")
 
+/* Since version 0.3: apart, for the digest of a question without them is that of earlier versions.
+ */
+#define PERCUSS_CONTACT_FRICTION_FIELDS(F, ...)                                                    \
+    F(NUMBER, friction, 0.0, 10.0,                                                                 \
+      "coefficient of friction; 0: the catalogue's for the two materials, none if it states none") \
+    F(VECTOR, tangent, 1e6,                                                                        \
+      "world; first tangential direction, made normal to `normal`; zero: a fixed rule")
+
+#define PERCUSS_CONTACT_FIELDS(F, ...)                                                             \
+    PERCUSS_CONTACT_PLACE_FIELDS(F)                                                                \
+    PERCUSS_CONTACT_FRICTION_FIELDS(F)
+
 /* Of double precision nothing finer than the least tolerance is left. */
-#define PERCUSS_OPTION_FIELDS(F, ...)                                                              \
+#define PERCUSS_OPTION_FIRST_FIELDS(F, ...)                                                        \
     F(DEFAULTED, tolerance, 1e-12, 1.0, "on the restitution; 0: 1e-3")                             \
     F(DEFAULTED, horizon, 1e-9, 10.0, "s; 0: the longer of 20 ms and two longest periods")         \
     F(CHOICE, contact_model, contact_model, PERCUSS_CONTACT_COUNT, "local model of the contacts")  \
@@ -37,6 +49,14 @@
     F(FLAG, conditioning, "also report d(restitution)/d(speed)")                                   \
     F(FLAG, trace, "also write the time histories")                                                \
     F(NUMBER, deadline, 0.0, 1e9, "s; from the arrival until the server gives up; 0: none")
+
+#define PERCUSS_OPTION_FRICTION_FIELDS(F, ...)                                                     \
+    F(CHOICE, friction, friction, PERCUSS_FRICTION_COUNT,                                          \
+      "law of the tangential forces where a coefficient is stated")
+
+#define PERCUSS_OPTION_FIELDS(F, ...)                                                              \
+    PERCUSS_OPTION_FIRST_FIELDS(F)                                                                 \
+    PERCUSS_OPTION_FRICTION_FIELDS(F)
 
 #define PERCUSS_INPUT_FIELDS(F, L)                                                                 \
     F(TEXT, name,                                                                                  \

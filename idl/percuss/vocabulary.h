@@ -51,6 +51,20 @@
     X(SERVICE, "service")                                                                          \
     X(CLIENT, "client")
 
+#define PERCUSS_FRICTION_LIST(X)                                                                   \
+    X(MICRO_SLIP, "micro-slip")                                                                    \
+    X(PLAIN, "plain")                                                                              \
+    X(NONE, "none")
+
+/* How a contact with friction moved along its tangent plane: without sliding, in part of the patch
+ * or of the time, in one direction throughout, or back at last. */
+#define PERCUSS_FRICTION_STATE_LIST(X)                                                             \
+    X(NONE, "none")                                                                                \
+    X(STUCK, "stuck")                                                                              \
+    X(PARTLY, "partly")                                                                            \
+    X(SLID, "slid")                                                                                \
+    X(REVERSED, "reversed")
+
 /* What a request may change of a body; units and ranges as in the catalogue. */
 #define PERCUSS_PARAMETER_LIST(X)                                                                  \
     X(YOUNG, "young")                                                                              \
@@ -62,14 +76,16 @@
     X(RADIUS, "radius")                                                                            \
     X(SCALE, "scale")
 
-#define PERCUSS_STATUS_MEMBER(name, text)     PERCUSS_##name,
-#define PERCUSS_END_MEMBER(name, text)        PERCUSS_END_##name,
-#define PERCUSS_CONTACT_MEMBER(name, text)    PERCUSS_CONTACT_##name,
-#define PERCUSS_METHOD_MEMBER(name, text)     PERCUSS_METHOD_##name,
-#define PERCUSS_COMPLIANCE_MEMBER(name, text) PERCUSS_COMPLIANCE_##name,
-#define PERCUSS_DENTS_MEMBER(name, text)      PERCUSS_DENTS_##name,
-#define PERCUSS_DELASSUS_MEMBER(name, text)   PERCUSS_DELASSUS_##name,
-#define PERCUSS_PARAMETER_MEMBER(name, text)  PERCUSS_PARAMETER_##name,
+#define PERCUSS_STATUS_MEMBER(name, text)         PERCUSS_##name,
+#define PERCUSS_END_MEMBER(name, text)            PERCUSS_END_##name,
+#define PERCUSS_CONTACT_MEMBER(name, text)        PERCUSS_CONTACT_##name,
+#define PERCUSS_METHOD_MEMBER(name, text)         PERCUSS_METHOD_##name,
+#define PERCUSS_COMPLIANCE_MEMBER(name, text)     PERCUSS_COMPLIANCE_##name,
+#define PERCUSS_DENTS_MEMBER(name, text)          PERCUSS_DENTS_##name,
+#define PERCUSS_DELASSUS_MEMBER(name, text)       PERCUSS_DELASSUS_##name,
+#define PERCUSS_FRICTION_MEMBER(name, text)       PERCUSS_FRICTION_##name,
+#define PERCUSS_FRICTION_STATE_MEMBER(name, text) PERCUSS_FRICTION_STATE_##name,
+#define PERCUSS_PARAMETER_MEMBER(name, text)      PERCUSS_PARAMETER_##name,
 
 enum percuss_status { PERCUSS_STATUS_LIST(PERCUSS_STATUS_MEMBER) PERCUSS_STATUS_COUNT };
 enum percuss_end_reason { PERCUSS_END_REASON_LIST(PERCUSS_END_MEMBER) PERCUSS_END_COUNT };
@@ -83,6 +99,10 @@ enum percuss_compliance {
 enum percuss_dents { PERCUSS_DENTS_LIST(PERCUSS_DENTS_MEMBER) PERCUSS_DENTS_COUNT };
 enum percuss_delassus_source {
     PERCUSS_DELASSUS_SOURCE_LIST(PERCUSS_DELASSUS_MEMBER) PERCUSS_DELASSUS_COUNT
+};
+enum percuss_friction { PERCUSS_FRICTION_LIST(PERCUSS_FRICTION_MEMBER) PERCUSS_FRICTION_COUNT };
+enum percuss_friction_state {
+    PERCUSS_FRICTION_STATE_LIST(PERCUSS_FRICTION_STATE_MEMBER) PERCUSS_FRICTION_STATE_COUNT
 };
 enum percuss_parameter { PERCUSS_PARAMETER_LIST(PERCUSS_PARAMETER_MEMBER) PERCUSS_PARAMETER_COUNT };
 

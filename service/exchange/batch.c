@@ -14,6 +14,8 @@
 #define SIZE(kind, ...) +SIZE_##kind
 #define SIZE_VALUE      8
 #define SIZE_VECTOR     24
+#define SIZE_PAIR       16
+#define SIZE_CHOICE     4
 #define SIZE_COUNT      4
 #define SIZE_FLAG       4
 #define SIZE_ID         0

@@ -234,6 +234,33 @@ static void check_index(struct check *check, const char *field, unsigned index, 
                count - 1);
 }
 
+/* Sine of the angle to the normal below which a direction says nothing about the tangent plane. */
+static const double TANGENT_LEAST = 1e-6;
+
+/* Makes a stated tangent normal to the unit normal, and a unit vector; zero stays zero. */
+static void project_tangent(struct check *check, const double stated[3], const double normal[3],
+                            double tangent[3])
+{
+    double size = fmax(fabs(stated[0]), fmax(fabs(stated[1]), fabs(stated[2])));
+    if (check->status || size == 0.0)
+        return;
+    /* of a size of which squares are neither 0 nor infinite */
+    for (int i = 0; i < 3; i++)
+        tangent[i] = stated[i] / size;
+    double along = tangent[0] * normal[0] + tangent[1] * normal[1] + tangent[2] * normal[2];
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        tangent[i] -= along * normal[i];
+        square += tangent[i] * tangent[i];
+    }
+    double norm = sqrt(square);
+    if (norm < TANGENT_LEAST)
+        check_that(check, false, "tangent: %s: must not be parallel to the normal, %s",
+                   vector_text(stated, 3).text, vector_text(normal, 3).text);
+    for (int i = 0; i < 3; i++)
+        tangent[i] /= norm;
+}
+
 static void decode_contact(struct check *check, const percuss_v1_Contact *from, size_t body_count,
                            struct solve_contact *to)
 {
@@ -241,6 +268,7 @@ static void decode_contact(struct check *check, const percuss_v1_Contact *from, 
     check_index(check, "b", from->b, body_count);
     check_that(check, from->a != from->b, "b: %u: must be another body than a", from->b);
     PERCUSS_CONTACT_FIELDS(TAKE)
+    project_tangent(check, from->tangent, to->normal, to->tangent);
 }
 
 static void decode_options(struct check *check, const percuss_v1_Options *from,

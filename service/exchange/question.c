@@ -37,12 +37,43 @@ static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *from)
 
 static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *from)
 {
-    PERCUSS_CONTACT_FIELDS(HASH)
+    PERCUSS_CONTACT_PLACE_FIELDS(HASH)
 }
 
 static void hash_options(struct hasher *hasher, const percuss_v1_Options *from)
 {
-    PERCUSS_OPTION_FIELDS(HASH)
+    PERCUSS_OPTION_FIRST_FIELDS(HASH)
+}
+
+static bool contact_states_friction(const percuss_v1_Contact *contact)
+{
+    const double *tangent = contact->tangent;
+    return contact->friction != 0.0 || tangent[0] != 0.0 || tangent[1] != 0.0 || tangent[2] != 0.0;
+}
+
+static void hash_contact_friction(struct hasher *hasher, const percuss_v1_Contact *from)
+{
+    PERCUSS_CONTACT_FRICTION_FIELDS(HASH)
+}
+
+static void hash_option_friction(struct hasher *hasher, const percuss_v1_Options *from)
+{
+    PERCUSS_OPTION_FRICTION_FIELDS(HASH)
+}
+
+/* Only what is stated: a question without friction has the digest that it had before there was
+ * friction, by which stores know their replies. */
+static void hash_friction(struct hasher *hasher, const percuss_v1_Request *request)
+{
+    bool stated = request->options.friction != 0;
+    for (uint32_t i = 0; i < request->contacts._length; i++)
+        stated = stated || contact_states_friction(&request->contacts._buffer[i]);
+    if (!stated)
+        return;
+    hash_text(hasher, "friction");
+    for (uint32_t i = 0; i < request->contacts._length; i++)
+        hash_contact_friction(hasher, &request->contacts._buffer[i]);
+    hash_option_friction(hasher, &request->options);
 }
 
 static void hash_request(struct hasher *hasher, const percuss_v1_Request *request)
@@ -55,6 +86,7 @@ static void hash_request(struct hasher *hasher, const percuss_v1_Request *reques
         hash_contact(hasher, &request->contacts._buffer[i]);
     hash_bytes(hasher, request->delassus._buffer, request->delassus._length * sizeof(double));
     hash_options(hasher, &request->options);
+    hash_friction(hasher, request);
 }
 
 struct digest question_digest_single(const percuss_v1_Request *request)

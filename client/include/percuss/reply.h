@@ -16,7 +16,10 @@ struct percuss_sub_impact {
     double peak_force;                  /* N */
     double max_indentation;             /* m */
     double gap_rate_before, gap_rate_after;
-    bool negligible; /* below 1 % of the contact's impulse */
+    bool negligible;                      /* below 1 % of the contact's impulse */
+    double impulse_tangential[2];         /* N s, on body a along the contact's tangents */
+    double slip_before[2], slip_after[2]; /* m/s, of a's point against b's along both */
+    enum percuss_friction_state friction_state;
 };
 
 struct percuss_contact_result {
@@ -30,6 +33,18 @@ struct percuss_contact_result {
     uint32_t sub_impacts_listed;   /* at most PERCUSS_MAX_SUB_IMPACTS; 16 in a batch */
     struct percuss_sub_impact *sub_impacts;
     double impulse_error; /* N s; by time, modes and models together; 0 from servers before it */
+    /* friction; all 0 from servers before it */
+    double friction;   /* coefficient that was used; 0: none */
+    double tangent[3]; /* world, unit, the second one is normal x tangent; zero without friction */
+    double impulse_tangential[2];         /* N s, on body a along both; part of impulse_vector */
+    double impulse_tangential_error;      /* N s; by time, modes and models together */
+    double slip_before[2], slip_after[2]; /* m/s, of a's point against b's, vibration not included;
+                                             zero without friction */
+    double tangential_restitution; /* -slip_after.slip_before / slip_before^2; NAN without either */
+    double restitution_kinematic;  /* -gap rate after / before; NAN where there are more contacts */
+    double restitution_energetic; /* Stronge's: root of the normal force's work in release over that
+                                     in compression; NAN likewise */
+    enum percuss_friction_state friction_state;
 };
 
 struct percuss_body_velocity {
@@ -54,6 +69,7 @@ struct percuss_energy { /* J */
     struct percuss_body_energy *vibration;
     double damping, plastic, stored; /* damping: with the waves that leave through half-spaces */
     double closure;                  /* available less all the others: a check of the solution */
+    double friction;                 /* lost by sliding in the contacts */
 };
 
 struct percuss_error_estimate {

@@ -41,6 +41,9 @@ struct percuss_contact {
     double normal[3];        /* world, unit, from b to a */
     double gap;              /* m; negative: the bodies overlap already */
     double gap_acceleration; /* n.(a_A - a_B), m/s^2; negative presses */
+    double friction;         /* coefficient; 0: the catalogue's for the two materials, if any */
+    double tangent[3]; /* world; first tangential direction, made normal to `normal`; zero: the
+                          world axis least parallel to the normal is */
 };
 
 struct percuss_options {
@@ -54,6 +57,8 @@ struct percuss_options {
     bool trace;        /* the server also writes time histories on topic percuss/v1/Trace, see
                           percuss_solve_traced */
     double deadline;   /* s from arrival until the server gives up; 0: none */
+    enum percuss_friction
+        friction; /* law of the tangential forces of contacts with a coefficient */
 };
 
 /* About 32 KiB; only the first body_count and contact_count elements are read. */

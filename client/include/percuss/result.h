@@ -52,6 +52,8 @@ PERCUSS_API const char *percuss_compliance_name(unsigned compliance);
 PERCUSS_API const char *percuss_parameter_name(unsigned parameter);
 PERCUSS_API const char *percuss_dents_name(unsigned dents);
 PERCUSS_API const char *percuss_delassus_source_name(unsigned source);
+PERCUSS_API const char *percuss_friction_name(unsigned friction);
+PERCUSS_API const char *percuss_friction_state_name(unsigned state);
 
 #ifdef __cplusplus
 }

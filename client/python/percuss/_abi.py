@@ -14,6 +14,7 @@ from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Parameter
 _Id = c_char * ID_SIZE
 _Octets = c_uint8 * 16
 _Vector = c_double * 3
+_Pair = c_double * 2
 
 
 class ClientConfig(ctypes.Structure):
@@ -63,6 +64,8 @@ class Contact(ctypes.Structure):
         ("normal", _Vector),
         ("gap", c_double),
         ("gap_acceleration", c_double),
+        ("friction", c_double),
+        ("tangent", _Vector),
     ]
 
 
@@ -77,6 +80,7 @@ class Options(ctypes.Structure):
         ("conditioning", c_bool),
         ("trace", c_bool),
         ("deadline", c_double),
+        ("friction", c_uint),
     ]
 
 
@@ -104,6 +108,10 @@ class SubImpact(ctypes.Structure):
         ("gap_rate_before", c_double),
         ("gap_rate_after", c_double),
         ("negligible", c_bool),
+        ("impulse_tangential", _Pair),
+        ("slip_before", _Pair),
+        ("slip_after", _Pair),
+        ("friction_state", c_uint),
     ]
 
 
@@ -119,6 +127,16 @@ class ContactResult(ctypes.Structure):
         ("sub_impacts_listed", c_uint32),
         ("sub_impacts", POINTER(SubImpact)),
         ("impulse_error", c_double),
+        ("friction", c_double),
+        ("tangent", _Vector),
+        ("impulse_tangential", _Pair),
+        ("impulse_tangential_error", c_double),
+        ("slip_before", _Pair),
+        ("slip_after", _Pair),
+        ("tangential_restitution", c_double),
+        ("restitution_kinematic", c_double),
+        ("restitution_energetic", c_double),
+        ("friction_state", c_uint),
     ]
 
 
@@ -150,6 +168,7 @@ class Energy(ctypes.Structure):
         ("plastic", c_double),
         ("stored", c_double),
         ("closure", c_double),
+        ("friction", c_double),
     ]
 
 

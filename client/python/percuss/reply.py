@@ -15,14 +15,16 @@ from numpy.typing import NDArray
 from . import _abi, _tables
 from .errors import Refused
 from .request import FloatArray
-from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Id, Method, Status
+from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, FrictionState, Id, Method, Status
 
 SUB_IMPACT: "np.dtype[np.void]" = np.dtype(cast(Any, _abi.SubImpact))
 """A sub-impact: an interval in which the bodies are pressed together.
 
 start, compression_end, end: s from the stated instant. impulse, compression_impulse (up to the largest
 indentation): N s. peak_force: N. max_indentation: m. gap_rate_before, gap_rate_after: m/s. negligible:
-below 1 % of the contact's impulse.
+below 1 % of the contact's impulse. impulse_tangential: N s, on body a along the contact's two tangents.
+slip_before, slip_after: m/s, of a's point against b's along both; zero without friction. friction_state: the
+number of a FrictionState.
 """
 
 
@@ -36,6 +38,18 @@ def force_centres(sub_impacts: NDArray[np.void]) -> FloatArray:
     shift = np.divide(moment, impulse, out=np.zeros(len(impulse)), where=impulse > 0.0)
     centres: FloatArray = np.clip(peak + shift, start, end)
     return centres
+
+
+def _columns(sub_impacts: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """The members of sub-impacts, of pairs one after the other."""
+    columns: dict[str, NDArray[Any]] = {}
+    for name in sub_impacts.dtype.names or ():
+        values = sub_impacts[name]
+        if values.ndim == 1:
+            columns[name] = values
+        else:
+            columns.update({f"{name}_{k + 1}": values[:, k] for k in range(values.shape[1])})
+    return columns
 
 
 @dataclass(frozen=True)
@@ -60,6 +74,25 @@ class ContactResult:
     """Those listed (at most 256; 16 in a batch), of dtype SUB_IMPACT: sub_impacts["impulse"] is an array."""
     impulse_error: float
     """Of the impulse, by time, modes and models together, N s."""
+    friction: float
+    """Coefficient that was used; 0: none."""
+    tangent: FloatArray
+    """The first one, world; the second is normal x tangent. Zero without friction."""
+    impulse_tangential: FloatArray
+    """On body a along both, N s; part of impulse_vector."""
+    impulse_tangential_error: float
+    """Of it, by time, modes and models together, N s."""
+    slip_before: FloatArray
+    """Of a's point against b's along both, vibration not included, m/s; zero without friction."""
+    slip_after: FloatArray
+    """The same after the impact."""
+    tangential_restitution: float
+    """-slip_after.slip_before / |slip_before|^2; nan without slip or friction."""
+    restitution_kinematic: float
+    """-gap rate after / before; nan where there are more contacts."""
+    restitution_energetic: float
+    """Stronge's: root of the normal force's work in release over that in compression; nan likewise."""
+    friction_state: FrictionState
 
     @property
     def significant(self) -> int:
@@ -110,6 +143,8 @@ class Energy:
     stored: float
     closure: float
     """available less all the others: a check of the solution."""
+    friction: float
+    """Lost by sliding in the contacts."""
 
 
 @dataclass(frozen=True)
@@ -216,13 +251,12 @@ class Reply:
         return self
 
     def to_dataframe(self) -> Any:
-        """A row a sub-impact that is listed: contact, and the members of SUB_IMPACT."""
-        names = SUB_IMPACT.names or ()
+        """A row a sub-impact that is listed: contact, and the members of SUB_IMPACT, of pairs as NAME_1, NAME_2."""
         parts = [
-            {"contact": np.full(len(one.sub_impacts), i), **{name: one.sub_impacts[name] for name in names}}
+            {"contact": np.full(len(one.sub_impacts), i), **_columns(one.sub_impacts)}
             for i, one in enumerate(self.contacts)
         ]
-        return _tables.stack(parts, ("contact", *names))
+        return _tables.stack(parts, ("contact", *_columns(np.zeros(0, SUB_IMPACT))))
 
     def _repr_html_(self) -> str:
         said = f"{self.status}: {self.message}" if self.message else f"{self.status}, {self.end_reason}"

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _abi, _convert
-from .vocabulary import MAX_BODIES, MAX_CONTACTS, Choice, Compliance, ContactModel, Dents, Method, Parameter
+from .vocabulary import MAX_BODIES, MAX_CONTACTS, Choice, Compliance, ContactModel, Dents, Friction, Method, Parameter
 
 FloatArray = NDArray[np.float64]
 _ChoiceType = TypeVar("_ChoiceType", bound=Choice)
@@ -114,8 +114,8 @@ class BodyMotion:
 
 
 @dataclass
-class Contact:
-    """A contact of bodies[a] on bodies[b]."""
+class ContactPlace:
+    """Where bodies[a] meets bodies[b]."""
 
     a: int
     b: int
@@ -127,6 +127,16 @@ class Contact:
     """m, or a text with a unit; negative: the bodies overlap already."""
     gap_acceleration: float = 0.0
     """n.(a_A - a_B), m/s^2; negative presses."""
+
+
+@dataclass
+class Contact(ContactPlace):
+    """A contact of bodies[a] on bodies[b]."""
+
+    friction: float = 0.0
+    """Coefficient of friction; 0: the catalogue's for the two materials, none if it states none."""
+    tangent: _Vector = _Vector(0.0, 0.0, 0.0)
+    """World, first tangential direction, made normal to `normal`; zero: the world axis least parallel to it is."""
 
 
 @dataclass
@@ -148,6 +158,8 @@ class Options:
     """The server also writes the force history on topic percuss/v1/Trace."""
     deadline: _Quantity = _Quantity("time")
     """s, or a text with a unit, from arrival until the server gives up; 0: none."""
+    friction: _Chosen[Friction] = _Chosen(Friction.MICRO_SLIP)
+    """Law of the tangential forces where a coefficient is stated: a member, or its name: "plain"."""
 
 
 @dataclass

@@ -43,11 +43,15 @@ class Application(Choice):
 
 
 @dataclass
-class Contact(request.Contact):
-    """Two bodies that touch, or nearly; a and b are indices of the engine's bodies. The normal points from b to a."""
-
+class _Feature(request.ContactPlace):
     feature: int = 0
     """Tells several contacts of the same two bodies apart."""
+
+
+@dataclass
+class Contact(request.Contact, _Feature):  # in this order `feature` is the seventh argument
+    """Two bodies that touch, or nearly; a and b are indices of the engine's bodies. The normal points from b to a.
+    Impulses of the slow scale are along normals: friction and tangent are not read."""
 
 
 class Engine:
@@ -142,7 +146,7 @@ class Inertia:
 
 
 def _read_contact(source: Any) -> Contact:
-    return _convert.read(source, Contact)
+    return _convert.read(source, Contact, friction=0.0, tangent=(0.0, 0.0, 0.0))
 
 
 def _write_contacts(contacts: Sequence[Contact]) -> Any:

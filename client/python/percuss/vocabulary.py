@@ -143,6 +143,26 @@ class Dents(Choice):
     IGNORE = 1
 
 
+class Friction(Choice):
+    """The law of the tangential forces where a coefficient of friction is stated."""
+
+    MICRO_SLIP = 0
+    PLAIN = 1
+    NONE = 2
+    """Coefficients are ignored."""
+
+
+class FrictionState(Choice):
+    """How a contact with friction slid."""
+
+    NONE = 0
+    """No friction."""
+    STUCK = 1
+    PARTLY = 2
+    SLID = 3
+    REVERSED = 4
+
+
 class Parameter(Choice):
     """What a request may change of a body."""
 

@@ -89,6 +89,9 @@ class Sweeps(Beside):
             self.client.wait(0, 0.0)
 
 
+PAIRS = ("impulse_tangential", "slip_before", "slip_after")
+
+
 class Tables(Beside):
     def question(self, speed: float = 0.2) -> percuss.Request:
         bodies = self.local.bodies()
@@ -98,7 +101,9 @@ class Tables(Beside):
         reply = self.local.solve(self.question())
         subs = reply.to_dataframe()
         self.assertEqual(subs["impulse"].tolist(), reply.contacts[0].sub_impacts["impulse"].tolist())
-        self.assertEqual(list(subs.columns), ["contact", *(percuss.SUB_IMPACT.names or ())])
+        names = [name for name in percuss.SUB_IMPACT.names or () if name not in PAIRS]
+        self.assertEqual(set(subs.columns), {"contact", *names, *(f"{name}_{k}" for name in PAIRS for k in (1, 2))})
+        self.assertEqual(subs["slip_before_2"].tolist(), reply.contacts[0].sub_impacts["slip_before"][:, 1].tolist())
         refused = self.question()
         refused.bodies[0].id = "nobody"
         replies = self.local.solve_batch([self.question(0.1), refused, self.question(0.2)])

@@ -24,6 +24,7 @@ const char *contact_model_name(unsigned contact_model);
 const char *method_name(unsigned method);
 const char *compliance_name(unsigned compliance);
 const char *dents_name(unsigned dents);
+const char *friction_name(unsigned friction);
 const char *parameter_name(unsigned parameter);
 
 #endif

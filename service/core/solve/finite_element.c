@@ -188,6 +188,9 @@ static void complete_fill_contact(const struct problem *problem, const struct co
         .sub_impact_count = from->sub_impacts,
         .sub_impacts_listed = list ? listed : 0,
         .sub_impacts = list,
+        .tangential_restitution = NAN,
+        .restitution_kinematic = NAN,
+        .restitution_energetic = NAN,
     };
     scale3(from->impulse, problem->request->contacts[0].normal, contact->impulse_vector);
     result->contact_count = 1;

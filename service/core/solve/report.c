@@ -68,6 +68,9 @@ static void fill_contacts(const struct problem *problem, const struct solution *
             .sub_impact_count = track->count,
             .sub_impacts_listed = listed,
             .sub_impacts = track->list,
+            .tangential_restitution = NAN,
+            .restitution_kinematic = NAN,
+            .restitution_energetic = NAN,
         };
         /* its impulse, along the normal */
         scale3(track->impulse, problem->request->contacts[c].normal, contact->impulse_vector);

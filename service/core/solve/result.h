@@ -61,7 +61,7 @@ const char *warnings_text(const struct warnings *warnings, enum warning_kind kin
 
 struct solve_contact_result {
     double impulse;
-    double impulse_vector[3]; /* on body a */
+    double impulse_vector[3]; /* on body a; normal and tangential part */
     double impulse_compression;
     double restitution; /* NAN where impulse_compression is 0 */
     double inverse_effective_mass;
@@ -71,6 +71,15 @@ struct solve_contact_result {
     const struct sub_impact *sub_impacts; /* in the workspace, until its next solve */
     double impulse_error;                 /* N s, all known errors together */
     double impulse_error_model;           /* the models' part of it */
+    double friction;                      /* coefficient that was used; 0: none */
+    double tangent[3]; /* the first, world; the second: normal x tangent; zero without friction */
+    double impulse_tangential[2];         /* on body a */
+    double impulse_tangential_error;      /* N s, all known errors together */
+    double slip_before[2], slip_after[2]; /* of the rigid bodies, m/s; zero without friction */
+    double tangential_restitution; /* -after.before / before^2; NAN without slip or friction */
+    double restitution_kinematic;  /* -gap rate after / before; NAN for groups */
+    double restitution_energetic;  /* Stronge's; NAN for groups */
+    enum percuss_friction_state friction_state;
 };
 
 struct solve_body_result {

@@ -52,6 +52,7 @@ static void every_number_has_its_name(void **state)
     assert_string_equal(contact_model_name(PERCUSS_CONTACT_CLOSED_FORM), "closed-form");
     assert_string_equal(method_name(PERCUSS_METHOD_CVODE), "cvode");
     assert_string_equal(compliance_name(PERCUSS_COMPLIANCE_HALF_SPACE), "half-space");
+    assert_string_equal(friction_name(PERCUSS_FRICTION_PLAIN), "plain");
     assert_string_equal(status_name(PERCUSS_STATUS_COUNT), "?");
     assert_string_equal(end_reason_name(PERCUSS_END_COUNT), "?");
     assert_string_equal(contact_model_name(~0u), "?");

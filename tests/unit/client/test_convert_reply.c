@@ -59,6 +59,24 @@ static void contacts(void **state)
     assert_true(sub[1].gap_rate_before == 8 && sub[1].gap_rate_after == 9);
 }
 
+static void friction(void **state)
+{
+    (void)state;
+    const struct percuss_contact_result *contact = reply.contacts;
+    const struct percuss_sub_impact *sub = &contact->sub_impacts[1];
+    assert_true(contact->friction == 0.3 && contact->tangent[1] == 1);
+    assert_true(contact->impulse_tangential[0] == 51 && contact->impulse_tangential[1] == 52);
+    assert_true(contact->impulse_tangential_error == 53 && contact->slip_before[0] == 54);
+    assert_true(isnan(contact->slip_before[1]) && contact->slip_after[1] == 55);
+    assert_true(contact->tangential_restitution == 56 && contact->restitution_kinematic == 57);
+    assert_true(isnan(contact->restitution_energetic));
+    assert_int_equal(contact->friction_state, PERCUSS_FRICTION_STATE_PARTLY);
+    assert_true(sub->impulse_tangential[0] == 46 && sub->impulse_tangential[1] == 47);
+    assert_true(sub->slip_before[1] == 49 && isnan(sub->slip_after[0]) && sub->slip_after[1] == 50);
+    assert_int_equal(sub->friction_state, PERCUSS_FRICTION_STATE_REVERSED);
+    assert_true(reply.energy.friction == 58);
+}
+
 static void bodies_after(void **state)
 {
     (void)state;
@@ -121,9 +139,13 @@ static void an_empty_reply(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(header),       cmocka_unit_test(contacts),
-        cmocka_unit_test(bodies_after), cmocka_unit_test(energy_error_and_model),
-        cmocka_unit_test(warnings),     cmocka_unit_test(an_empty_reply),
+        cmocka_unit_test(header),
+        cmocka_unit_test(contacts),
+        cmocka_unit_test(friction),
+        cmocka_unit_test(bodies_after),
+        cmocka_unit_test(energy_error_and_model),
+        cmocka_unit_test(warnings),
+        cmocka_unit_test(an_empty_reply),
     };
     return cmocka_run_group_tests(tests, convert, release);
 }

@@ -30,6 +30,8 @@ static void fill(void)
     contact->normal[2] = 6;
     contact->gap = 7;
     contact->gap_acceleration = 8;
+    contact->friction = 0.25;
+    contact->tangent[1] = 10;
 }
 
 static void converts_bodies_and_contacts(void **state)
@@ -54,6 +56,7 @@ static void converts_bodies_and_contacts(void **state)
     assert_int_equal(contact->b, 1);
     assert_true(contact->point[0] == 5 && contact->normal[2] == 6);
     assert_true(contact->gap == 7 && contact->gap_acceleration == 8);
+    assert_true(contact->friction == 0.25 && contact->tangent[1] == 10);
     assert_int_equal(wire.delassus._length, 0);
 }
 
@@ -71,7 +74,8 @@ static void converts_options_and_delassus(void **state)
                                                .dents = PERCUSS_DENTS_IGNORE,
                                                .conditioning = true,
                                                .trace = true,
-                                               .deadline = 2};
+                                               .deadline = 2,
+                                               .friction = PERCUSS_FRICTION_NONE};
     assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
     assert_int_equal(wire.delassus._length, 1);
     assert_true(wire.delassus._buffer[0] == 9);
@@ -81,6 +85,7 @@ static void converts_options_and_delassus(void **state)
     assert_int_equal(wire.options.compliance, percuss_v1_COMPLIANCE_MATCHED);
     assert_int_equal(wire.options.dents, percuss_v1_DENTS_IGNORE);
     assert_true(wire.options.conditioning && wire.options.trace && wire.options.deadline == 2);
+    assert_int_equal(wire.options.friction, percuss_v1_FRICTION_NONE);
 }
 
 static void refuse(const char *message)

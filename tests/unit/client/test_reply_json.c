@@ -59,12 +59,15 @@ static void names_of_the_contract(void **state)
     const json_t *contact = json_array_get(member(root, "contacts"), 0);
     expect_names(contact, "impulse,impulse_vector,impulse_compression,restitution,"
                           "inverse_effective_mass,end_time,sub_impact_count,sub_impacts,"
-                          "impulse_error");
+                          "impulse_error,friction,tangent,impulse_tangential,"
+                          "impulse_tangential_error,slip_before,slip_after,tangential_restitution,"
+                          "restitution_kinematic,restitution_energetic,friction_state");
     expect_names(json_array_get(member(contact, "sub_impacts"), 0),
                  "start,compression_end,end,impulse,compression_impulse,peak_force,"
-                 "max_indentation,gap_rate_before,gap_rate_after,negligible");
+                 "max_indentation,gap_rate_before,gap_rate_after,negligible,impulse_tangential,"
+                 "slip_before,slip_after,friction_state");
     expect_names(member(root, "energy"),
-                 "available,rigid_after,vibration,damping,plastic,stored,closure");
+                 "available,rigid_after,vibration,damping,plastic,friction,stored,closure");
     expect_names(member(root, "error"),
                  "restitution_total,total_met,restitution_time,restitution_modes,impulse_time,"
                  "impulse_modes,restitution_by_speed,tolerance_met,restitution_model,"
@@ -93,6 +96,9 @@ static void choices_are_names(void **state)
     expect_text(member(root, "model"), "contact_model", "hertz");
     expect_text(member(root, "model"), "compliance", "half-space");
     expect_text(member(root, "model"), "method", "cvode");
+    const json_t *contact = json_array_get(member(root, "contacts"), 0);
+    expect_text(contact, "friction_state", "partly");
+    expect_text(json_array_get(member(contact, "sub_impacts"), 1), "friction_state", "reversed");
     expect_text(root, "client", "000102030405060708090a0b0c0d0e0f");
     expect_text(root, "server", "f0f1f2f3f4f5f6f7f8f9fafbfcfdfeff");
 }
@@ -104,6 +110,12 @@ static void undefined_numbers_are_null(void **state)
     assert_true(json_is_null(member(member(root, "error"), "restitution_by_speed")));
     const json_t *contact = json_array_get(member(root, "contacts"), 1);
     assert_true(json_is_null(member(contact, "restitution")));
+    contact = json_array_get(member(root, "contacts"), 0);
+    assert_true(json_is_null(member(contact, "restitution_energetic")));
+    const json_t *slip = member(contact, "slip_before");
+    assert_int_equal(json_array_size(slip), 2);
+    assert_true(json_number_value(json_array_get(slip, 0)) == 54);
+    assert_true(json_is_null(json_array_get(slip, 1)));
 }
 
 static void seventeen_digits_are_the_same_double(void **state)

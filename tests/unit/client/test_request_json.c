@@ -66,12 +66,14 @@ static void reads_every_member(void **state)
     (void)state;
     accept("{\"bodies\": [{\"state\": \"t1\", \"elapsed\": 2.5, \"specimen\": \"rod 7\", "
            "\"overrides\": {\"damping\": 0.01, \"young\": 71e9}}],"
-           "\"contacts\": [{\"gap\": -1e-4, \"gap_acceleration\": -9.81}],"
+           "\"contacts\": [{\"gap\": -1e-4, \"gap_acceleration\": -9.81, \"friction\": 0.3, "
+           "\"tangent\": [0, 1, 0]}],"
            "\"options\": {\"horizon\": 0.01, \"contact_model\": \"closed-form\", \"method\": "
            "\"cvode\","
            "\"compliance\": \"matched\", \"dents\": \"ignore\", \"conditioning\": true, \"trace\": "
            "false,"
-           "\"deadline\": 3}, \"client\": \"000102030405060708090A0b0c0d0eff\", \"sequence\": 12}");
+           "\"friction\": \"plain\", \"deadline\": 3}, \"client\": "
+           "\"000102030405060708090A0b0c0d0eff\", \"sequence\": 12}");
     const struct percuss_options *options = &request.request.options;
     assert_string_equal(request.request.bodies[0].state, "t1");
     assert_true(request.request.bodies[0].elapsed == 2.5);
@@ -87,6 +89,9 @@ static void reads_every_member(void **state)
     assert_int_equal(options->compliance, PERCUSS_COMPLIANCE_MATCHED);
     assert_int_equal(options->dents, PERCUSS_DENTS_IGNORE);
     assert_true(options->conditioning && !options->trace);
+    assert_int_equal(options->friction, PERCUSS_FRICTION_PLAIN);
+    assert_true(request.request.contacts[0].friction == 0.3);
+    assert_true(request.request.contacts[0].tangent[1] == 1.0);
     assert_true(request.has_client);
     assert_int_equal(request.client[10], 0x0a);
     assert_int_equal(request.client[15], 0xff);

@@ -23,7 +23,14 @@ static inline percuss_v1_Reply wire_reply(void)
 {
     static percuss_v1_SubImpact subs[2] = {
         {.start = 1, .compression_end = 2, .end = 3, .impulse = 4, .compression_impulse = 5},
-        {.peak_force = 6, .max_indentation = 7, .gap_rate_before = 8, .gap_rate_after = 9},
+        {.peak_force = 6,
+         .max_indentation = 7,
+         .gap_rate_before = 8,
+         .gap_rate_after = 9,
+         .impulse_tangential = {46, 47},
+         .slip_before = {48, 49},
+         .slip_after = {NAN, 50},
+         .friction_state = percuss_v1_FRICTION_STATE_REVERSED},
     };
     static percuss_v1_ContactResult contacts[2] = {
         {.impulse = 10, .impulse_vector = {11, 12, 13}, .impulse_compression = 14},
@@ -51,6 +58,18 @@ static inline percuss_v1_Reply wire_reply(void)
     subs[1].negligible = true;
     contacts[0].restitution = 0.5;
     contacts[0].impulse_error = 43;
+    contacts[0].friction = 0.3;
+    contacts[0].tangent[1] = 1;
+    contacts[0].impulse_tangential[0] = 51;
+    contacts[0].impulse_tangential[1] = 52;
+    contacts[0].impulse_tangential_error = 53;
+    contacts[0].slip_before[0] = 54;
+    contacts[0].slip_before[1] = NAN;
+    contacts[0].slip_after[1] = 55;
+    contacts[0].tangential_restitution = 56;
+    contacts[0].restitution_kinematic = 57;
+    contacts[0].restitution_energetic = NAN;
+    contacts[0].friction_state = percuss_v1_FRICTION_STATE_PARTLY;
     velocities[0].velocity_error = 44;
     velocities[0].angular_velocity_error = 45;
     contacts[0].sub_impact_count = 300; /* more than are listed */
@@ -64,7 +83,8 @@ static inline percuss_v1_Reply wire_reply(void)
                                       .damping = 31,
                                       .plastic = 32,
                                       .stored = 33,
-                                      .closure = 34};
+                                      .closure = 34,
+                                      .friction = 58};
     FILL(wire.energy.vibration, vibration);
     wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true, 40, 41, true, 42};
     FILL(wire.model.bodies, models);

@@ -5,6 +5,7 @@
 #ifndef PERCUSS_TESTS_EXCHANGE_SAMPLE_H
 #define PERCUSS_TESTS_EXCHANGE_SAMPLE_H
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,6 +55,21 @@ static inline struct envelope sample_envelope(uint64_t sequence)
     return (struct envelope){sample_client, sample_server, sequence, "revision", "1.2.3"};
 }
 
+static inline void sample_friction(struct solve_contact_result *contact)
+{
+    contact->friction = 0.3;
+    contact->tangent[2] = 1.0;
+    contact->impulse_tangential[0] = -4.0;
+    contact->impulse_tangential[1] = 5.0;
+    contact->impulse_tangential_error = 6.0;
+    contact->slip_before[0] = 7.0;
+    contact->slip_after[1] = NAN;
+    contact->tangential_restitution = 8.0;
+    contact->restitution_kinematic = 9.0;
+    contact->restitution_energetic = 10.0;
+    contact->friction_state = PERCUSS_FRICTION_STATE_SLID;
+}
+
 /* A result of that many bodies and contacts, each with `listed` sub-impacts; every number differs.
  * Freed by free(). */
 static inline struct solve_result *sample_result(size_t count, size_t listed)
@@ -63,7 +79,12 @@ static inline struct solve_result *sample_result(size_t count, size_t listed)
     assert_non_null(result);
     result->contact_count = result->body_count = count;
     for (size_t i = 0; i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        list[i] = (struct sub_impact){.start = (double)i, .impulse = 0.5 * (double)i};
+        list[i] = (struct sub_impact){.start = (double)i,
+                                      .impulse = 0.5 * (double)i,
+                                      .impulse_tangential = {0.0, 11.0},
+                                      .slip_before = {12.0, 0.0},
+                                      .slip_after = {NAN, NAN},
+                                      .friction_state = PERCUSS_FRICTION_STATE_STUCK};
     for (size_t i = 0; i < count; i++) {
         struct solve_contact_result *contact = &result->contacts[i];
         contact->impulse = 1.0 + (double)i;
@@ -71,6 +92,7 @@ static inline struct solve_result *sample_result(size_t count, size_t listed)
         contact->sub_impact_count = listed + 1000;
         contact->sub_impacts_listed = listed;
         contact->sub_impacts = list;
+        sample_friction(contact);
         struct solve_body_result *body = &result->bodies[i];
         memset(body->id, 'b', PERCUSS_ID_SIZE - 1);
         body->velocity[0] = (double)i;
@@ -86,6 +108,7 @@ static inline struct solve_result *sample_result(size_t count, size_t listed)
     snprintf(result->warnings[1], sizeof result->warnings[1], "mind the step");
     snprintf(result->reason, sizeof result->reason, "because");
     result->energy.available = 4.0;
+    result->energy.friction = 0.25;
     return result;
 }
 

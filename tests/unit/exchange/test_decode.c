@@ -26,7 +26,9 @@ static void converts_a_good_request(void **state)
                                                .dents = 1,
                                                .conditioning = true,
                                                .trace = true,
-                                               .deadline = 3.0};
+                                               .deadline = 3.0,
+                                               .friction = 1};
+    sample.contacts[1].friction = 0.3;
     assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
     assert_int_equal(request.body_count, 2);
     assert_int_equal(request.contact_count, 2);
@@ -44,6 +46,32 @@ static void converts_a_good_request(void **state)
     assert_int_equal(request.options.compliance, PERCUSS_COMPLIANCE_MATCHED);
     assert_int_equal(request.options.dents, PERCUSS_DENTS_IGNORE);
     assert_true(request.options.conditioning && request.options.trace);
+    assert_int_equal(request.options.friction, PERCUSS_FRICTION_PLAIN);
+    assert_true(request.contacts[0].friction == 0.0 && request.contacts[1].friction == 0.3);
+    assert_true(request.contacts[0].tangent[0] == 0.0 && request.contacts[0].tangent[1] == 0.0);
+}
+
+static void decode_tangent(double x, double y, double z)
+{
+    struct fault fault;
+    const double tangent[3] = {x, y, z};
+    sample_fill(&sample);
+    memcpy(sample.contacts[0].tangent, tangent, sizeof tangent);
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+}
+
+/* The normals are along z. */
+static void a_tangent_becomes_one(void **state)
+{
+    (void)state;
+    const double *tangent = request.contacts[0].tangent;
+    decode_tangent(0.0, -2.0, 5.0);
+    assert_true(tangent[0] == 0.0 && tangent[1] == -1.0 && tangent[2] == 0.0);
+    decode_tangent(3e-310, 4e-310, 0.0);
+    assert_true(fabs(tangent[0] - 0.6) < 1e-12 && fabs(tangent[1] - 0.8) < 1e-12);
+    decode_tangent(1e6, 1e6, -1e6);
+    assert_true(fabs(tangent[0] - sqrt(0.5)) < 1e-15 && tangent[1] == tangent[0]);
+    assert_true(tangent[2] == 0.0);
 }
 
 static void converts_overrides(void **state)
@@ -182,6 +210,13 @@ static void refuses_bad_contacts(void **state)
     REFUSED(contacts[0].gap, NAN, "contacts[0].gap: nan: must be in [-1000, 1000]");
     REFUSED(contacts[0].gap_acceleration, INFINITY,
             "contacts[0].gap_acceleration: inf: must be in [-1e+09, 1e+09]");
+    REFUSED(contacts[1].friction, -0.1, "contacts[1].friction: -0.1: must be in [0, 10]");
+    REFUSED(contacts[1].friction, 10.5, "contacts[1].friction: 10.5: must be in [0, 10]");
+    REFUSED(contacts[1].friction, NAN, "contacts[1].friction: nan: must be in [0, 10]");
+    REFUSED(contacts[1].tangent[0], NAN,
+            "contacts[1].tangent: (nan, 0, 0): each must be in [-1e+06, 1e+06]");
+    REFUSED(contacts[1].tangent[2], -2.0,
+            "contacts[1].tangent: (0, 0, -2): must not be parallel to the normal, (0, 0, 1)");
 }
 
 static void refuses_bad_options(void **state)
@@ -206,6 +241,8 @@ static void refuses_bad_options(void **state)
     REFUSED(wire.options.compliance, 3,
             "options.compliance: 3: must be one of 0 (default), 1 (half-space), 2 (matched)");
     REFUSED(wire.options.dents, 2, "options.dents: 2: must be one of 0 (keep), 1 (ignore)");
+    REFUSED(wire.options.friction, 3,
+            "options.friction: 3: must be one of 0 (micro-slip), 1 (plain), 2 (none)");
     REFUSED(wire.options.deadline, -1.0, "options.deadline: -1: must be in [0, 1e+09]");
     REFUSED(wire.options.deadline, NAN, "options.deadline: nan: must be in [0, 1e+09]");
 }
@@ -263,6 +300,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(converts_a_good_request),
+        cmocka_unit_test(a_tangent_becomes_one),
         cmocka_unit_test(converts_overrides),
         cmocka_unit_test(takes_zeros_for_defaults),
         cmocka_unit_test(normalises_what_is_nearly_unit),

@@ -37,7 +37,19 @@ static void copies_a_result(void **state)
     assert_true(reply->energy.vibration._buffer[1].energy == 0.125);
     assert_string_equal(reply->model.bodies._buffer[0].theory, "euler-bernoulli");
     assert_string_equal(reply->warnings._buffer[1], "mind the step");
-    assert_true(reply->energy.available == 4.0);
+    assert_true(reply->energy.available == 4.0 && reply->energy.friction == 0.25);
+    const percuss_v1_ContactResult *contact = &reply->contacts._buffer[1];
+    const percuss_v1_SubImpact *sub = &contact->sub_impacts._buffer[2];
+    assert_true(contact->friction == 0.3 && contact->tangent[2] == 1.0);
+    assert_true(contact->impulse_tangential[0] == -4.0 && contact->impulse_tangential[1] == 5.0);
+    assert_true(contact->impulse_tangential_error == 6.0);
+    assert_true(contact->slip_before[0] == 7.0 && isnan(contact->slip_after[1]));
+    assert_true(contact->tangential_restitution == 8.0 && contact->restitution_kinematic == 9.0);
+    assert_true(contact->restitution_energetic == 10.0);
+    assert_int_equal(contact->friction_state, percuss_v1_FRICTION_STATE_SLID);
+    assert_true(sub->impulse_tangential[1] == 11.0 && sub->slip_before[0] == 12.0);
+    assert_true(isnan(sub->slip_after[0]));
+    assert_int_equal(sub->friction_state, percuss_v1_FRICTION_STATE_STUCK);
     answer_release(answer);
     free(result);
 }
@@ -66,6 +78,7 @@ static void all_undefined(const percuss_v1_Reply *reply)
         energy->rigid_after,
         energy->damping,
         energy->plastic,
+        energy->friction,
         energy->stored,
         energy->closure,
         error->restitution_time,

@@ -68,6 +68,25 @@ static void heeds_everything_that_is_asked(void **state)
     MATTERS(wire.options.conditioning, true);
     MATTERS(wire.options.trace, true);
     MATTERS(wire.options.deadline, 1.0);
+    MATTERS(wire.options.friction, 1);
+    MATTERS(contacts[0].friction, 0.1);
+    MATTERS(contacts[1].tangent[2], 1.0);
+}
+
+/* As before there was friction: replies are stored by the digest, and asked for again by it. */
+static void a_question_without_friction_keeps_its_digest(void **state)
+{
+    (void)state;
+    const struct digest of_0_2_0 = {0x817eac1af0d16aaf, 0x51efacf1a2e29835};
+    assert_true(same(fresh_digest(), of_0_2_0));
+    sample.contacts[1].tangent[0] = -0.0;
+    assert_true(same(question_digest_single(&sample.wire), of_0_2_0));
+    /* of which contact it is stated */
+    sample.contacts[0].friction = 0.2;
+    struct digest first = question_digest_single(&sample.wire);
+    sample.contacts[0].friction = 0.0;
+    sample.contacts[1].friction = 0.2;
+    assert_false(same(question_digest_single(&sample.wire), first));
 }
 
 static void copies_outlive_their_sample(void **state)
@@ -151,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ignores_who_asks),
         cmocka_unit_test(heeds_everything_that_is_asked),
+        cmocka_unit_test(a_question_without_friction_keeps_its_digest),
         cmocka_unit_test(copies_outlive_their_sample),
         cmocka_unit_test(copies_nothing),
         cmocka_unit_test(spreads_every_bit),

@@ -12,7 +12,10 @@
 #define METHOD(name, text) assert_int_equal(PERCUSS_METHOD_##name, percuss_v1_METHOD_##name);
 #define YIELDING(name, text)                                                                       \
     assert_int_equal(PERCUSS_COMPLIANCE_##name, percuss_v1_COMPLIANCE_##name);
-#define DENTS(name, text) assert_int_equal(PERCUSS_DENTS_##name, percuss_v1_DENTS_##name);
+#define DENTS(name, text)    assert_int_equal(PERCUSS_DENTS_##name, percuss_v1_DENTS_##name);
+#define FRICTION(name, text) assert_int_equal(PERCUSS_FRICTION_##name, percuss_v1_FRICTION_##name);
+#define SLID(name, text)                                                                           \
+    assert_int_equal(PERCUSS_FRICTION_STATE_##name, percuss_v1_FRICTION_STATE_##name);
 #define PARAMETER(name, text)                                                                      \
     assert_int_equal(PERCUSS_PARAMETER_##name, percuss_v1_PARAMETER_##name);
 #define SOURCE(name, text)                                                                         \
@@ -27,6 +30,8 @@ static void numbers_are_those_of_the_wire(void **state)
     PERCUSS_METHOD_LIST(METHOD)
     PERCUSS_COMPLIANCE_LIST(YIELDING)
     PERCUSS_DENTS_LIST(DENTS)
+    PERCUSS_FRICTION_LIST(FRICTION)
+    PERCUSS_FRICTION_STATE_LIST(SLID)
     PERCUSS_PARAMETER_LIST(PARAMETER)
     PERCUSS_DELASSUS_SOURCE_LIST(SOURCE)
     assert_int_equal(SUPPORT_FREE, percuss_v1_SUPPORT_FREE);
@@ -60,6 +65,8 @@ static void the_idl_has_no_other_constants(void **state)
         {"METHOD_", PERCUSS_METHOD_COUNT},
         {"COMPLIANCE_", PERCUSS_COMPLIANCE_COUNT},
         {"DENTS_", PERCUSS_DENTS_COUNT},
+        {"FRICTION_", PERCUSS_FRICTION_COUNT + PERCUSS_FRICTION_STATE_COUNT},
+        {"FRICTION_STATE_", PERCUSS_FRICTION_STATE_COUNT},
         {"DELASSUS_SOURCE_", PERCUSS_DELASSUS_COUNT},
         {"PARAMETER_", PERCUSS_PARAMETER_COUNT},
         {"SUPPORT_", SUPPORT_CLAMPED + 1},
