@@ -83,10 +83,10 @@ double bar_place(const struct body *body, const struct site *site)
 }
 
 void bar_load_along(const struct body *body, const struct site *site, const double direction[3],
-                    struct family_load *load)
+                    bool tangential, struct family_load *load)
 {
     load->bar.x = bar_place(body, site);
-    load->bar.force = site->face == SITE_END ? direction[0] : 0.0;
+    load->bar.force = tangential || site->face == SITE_END ? direction[0] : 0.0;
     bar_load_settle(body, load);
 }
 

@@ -38,10 +38,11 @@ const char *bar_why_not(const struct body *body, const struct site *site);
 /* x of a site on the uniform bar (body->span): that of an end, or within its length. */
 double bar_place(const struct body *body, const struct site *site);
 
-/* Sets the force along x of a hit on an end. A hit on the side drives no longitudinal waves: its
- * part along x comes from the angle that is allowed between the stated and the true normal. */
+/* Sets the force along x of a hit on an end, or of a tangential force anywhere. A hit on the side
+ * drives no longitudinal waves: its part along x comes from the angle that is allowed between the
+ * stated and the true normal. */
 void bar_load_along(const struct body *body, const struct site *site, const double direction[3],
-                    struct family_load *load);
+                    bool tangential, struct family_load *load);
 
 /* Sets whether the load acts: a force below 1e-9 N, or a moment below 1e-9 N times the smallest
  * radius, is rounding of the pose. */

@@ -41,40 +41,68 @@ static void find_longitudinal(const struct body *body, struct modal_family *mode
     }
 }
 
-static bool is_right(const struct family_load *load)
+/* Whether a force acts on an end, of the two ends which. */
+static bool is_on_end(const struct body *body, double x)
 {
-    return load->bar.x > 0.0;
+    return fabs(x) >= 0.5 * body->span;
 }
 
-/* u_k = sqrt(2/M) cos or sin, largest at a free end; sign by the number of half waves between:
- * free-free cos(k pi (x/L + 1/2)) with k from 1; one end held: +1 at the free end. */
+/* Distance from the held end, or from the left one if none or both are, in lengths. */
+static double along_from(const struct body *body, double x)
+{
+    bool from_right = bar_held_ends(body) == 1 && body->supports[0] == SUPPORT_FREE;
+    return 0.5 + (from_right ? -x : x) / body->span;
+}
+
+/* cos or sin of mode k, largest at a free end; sign by the number of half waves between: free-free
+ * cos(k pi s) with k from 1, s from the left end; one end held: +1 at the free end; both held: sin.
+ */
+static double longitudinal_shape(const struct body *body, size_t k, double x)
+{
+    int held = bar_held_ends(body);
+    double wave = longitudinal_wave_number(body, k) * body->span;
+    if (is_on_end(body, x) && held == 0)
+        return x > 0.0 && k % 2 == 0 ? -1.0 : 1.0;
+    double s = along_from(body, x);
+    return held == 0 ? cos(wave * s) : held == 1 ? cos(wave * (1.0 - s)) : sin(wave * s);
+}
+
+/* u_k = sqrt(2/M) times the shape. */
 static void longitudinal_participations(const struct body *body, const struct modal_family *modes,
                                         const size_t *which, size_t count,
                                         const struct family_load *load, double *row)
 {
     (void)modes;
-    int held = bar_held_ends(body);
     for (size_t i = 0; i < count; i++) {
         size_t k = which[i];
         double share = lateral_share(body, longitudinal_wave_number(body, k));
-        double amplitude = held == 2 ? 0.0 : sqrt(2.0 / (body->mass * (1.0 + share)));
-        bool flips = held == 0 && is_right(load) && k % 2 == 0;
-        row[i] = flips ? -amplitude * load->bar.force : amplitude * load->bar.force;
+        double amplitude = sqrt(2.0 / (body->mass * (1.0 + share)));
+        row[i] = longitudinal_shape(body, k, load->bar.x) * amplitude * load->bar.force;
     }
 }
 
-/* Free-free: L/(3EA) at the same end, -L/(6EA) across, both with inertia relief (u along x); one
- * end held: L/(EA). */
+/* Displacement at s_i due to a force at s_j, in L/(EA). Free-free with inertia relief: 1/3 at the
+ * same end, -1/6 across (u along x), (s^3 + (1 - s)^3)/3 where it acts. */
+static double along_share(int held, double s_i, double s_j)
+{
+    double low = fmin(s_i, s_j), high = fmax(s_i, s_j);
+    if (held > 0)
+        return held == 1 ? low : low * (1.0 - high);
+    return 1.0 / 3.0 - high + 0.5 * (low * low + high * high);
+}
+
 static double longitudinal_compliance(const struct body *body, size_t family,
                                       const struct family_load *i, const struct family_load *j)
 {
     (void)family;
     double full = body->span / (body->material.young * body->area);
-    double share = 1.0;
-    if (bar_held_ends(body) == 0)
-        share = is_right(i) == is_right(j) ? 1.0 / 3.0 : -1.0 / 6.0;
-    else if (bar_held_ends(body) == 2)
-        share = 0.0;
+    bool on_ends = is_on_end(body, i->bar.x) && is_on_end(body, j->bar.x);
+    double share;
+    if (on_ends && bar_held_ends(body) == 0)
+        share = (i->bar.x > 0.0) == (j->bar.x > 0.0) ? 1.0 / 3.0 : -1.0 / 6.0;
+    else
+        share = along_share(bar_held_ends(body), along_from(body, i->bar.x),
+                            along_from(body, j->bar.x));
     return share * full * i->bar.force * j->bar.force;
 }
 

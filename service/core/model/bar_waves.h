@@ -12,7 +12,7 @@
 #include "model/body_kind.h"
 
 /* Longitudinal: omega_k = k pi c/L (free-free), (k - 1/2) pi c/L (one end held), with Rayleigh-Love
- * omega/sqrt(1 + (nu k r_p)^2). Driven by forces along x on the ends. */
+ * omega/sqrt(1 + (nu k r_p)^2). Driven by forces along x. */
 extern const struct mode_family longitudinal_family;
 
 /* Bending (beam.h) in the plane y as BAR_BENDING_Y, in the plane z as BAR_BENDING_Z; shapes are

@@ -12,6 +12,7 @@
 
 #include "model/body_kind.h"
 #include "model/key.h"
+#include "model/ritz.h"
 #include "model/ritz_store.h"
 
 static enum percuss_status key_refuse_number(const struct key *key, unsigned number,
@@ -114,6 +115,15 @@ bool body_is_flexible(const struct body *body)
 bool body_is_solid(const struct body *body)
 {
     return (body->mesh || body->ritz) && body_is_flexible(body);
+}
+
+const char *body_why_no_friction(const struct body *body)
+{
+    const struct body_kind *kind = body->kind;
+    struct ritz_shape shape;
+    bool vibrates = body_can_vibrate(body) && (!kind->box || kind->box(body, &shape)) &&
+                    (!body->mesh || body->mesh->mode_count > 0);
+    return vibrates ? kind->why_no_friction : NULL;
 }
 
 bool body_bends(const struct body *body)

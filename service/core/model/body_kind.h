@@ -135,10 +135,14 @@ struct body_kind {
     const struct mode_family *const *families;
     size_t family_count;
 
-    /* The load on each family of one newton along `direction` (body frame) at a site; NULL: no
-     * family. */
+    /* The load on each family of one newton along `direction` (body frame) at a site, normal to the
+     * surface or tangential to it, see modal_basis.h; NULL: no family. */
     void (*load)(const struct body *body, const struct site *site, const double direction[3],
-                 struct site_load *load);
+                 bool tangential, struct site_load *load);
+
+    /* Why there can be no friction on one that vibrates, and what to do, in words that follow a
+     * colon; NULL: there can be. */
+    const char *why_no_friction;
 
     /* Whether two families, *first and the next, are alike, so that they may be turned about the
      * body's axis into the plane of a load (bending_axes.h); NULL: none are. */

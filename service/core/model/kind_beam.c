@@ -226,17 +226,18 @@ static const struct mode_family *const families[] = {
 
 /* A section that turns by psi moves a point at the height y and at x in front of it by -psi y along
  * the axis and by psi x across it: so the force on a cap acts on the section under the cap, with
- * its lever arm. A hit on the side of a rectangular section twists it about the axis; without
- * friction one on a round section or on an end does not. */
+ * its lever arm, and so does a tangential force on the side. A hit on the side of a rectangular
+ * section twists it about the axis; without friction one on a round section or on an end does not.
+ */
 static void beam_load(const struct body *body, const struct site *site, const double direction[3],
-                      struct site_load *load)
+                      bool tangential, struct site_load *load)
 {
     bool on_end = site->face == SITE_END;
     double x = bar_place(body, site);
     double at = on_end ? bar_cap_section(body, site) : x;
     const double *point = site->point;
     /* along the axis */
-    bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
+    bar_load_along(body, site, direction, tangential, &load->family[BAR_LONGITUDINAL]);
     /* across it, in both planes */
     for (int plane = 0; plane < 2; plane++) {
         struct family_load *bending = &load->family[BAR_BENDING_Y + plane];
@@ -244,7 +245,7 @@ static void beam_load(const struct body *body, const struct site *site, const do
             bending->bar = beam_side_load(body, plane, point, direction);
         bending->bar.x = at;
         bending->bar.force = direction[1 + plane];
-        if (on_end)
+        if (on_end || tangential)
             bending->bar.moment =
                 (point[0] - at) * direction[1 + plane] - point[1 + plane] * direction[0];
         bar_load_settle(body, bending);
@@ -252,7 +253,7 @@ static void beam_load(const struct body *body, const struct site *site, const do
     /* about it */
     struct family_load *twist = &load->family[BAR_TWIST];
     twist->bar.x = x;
-    if (!is_round(body) && !on_end)
+    if (tangential || (!is_round(body) && !on_end))
         twist->bar.moment = point[1] * direction[2] - point[2] * direction[1];
     bar_load_settle(body, twist);
 }
@@ -313,4 +314,6 @@ static const struct body_kind strip_kind = {
     BEAM_MEMBERS,
     BOX_VIBRATION,
     .box = mesh_family_box,
+    .why_no_friction = "it vibrates as a block, whose flexibility along the surface is not known: "
+                       "state its shear_factor, and it is computed as a beam",
 };

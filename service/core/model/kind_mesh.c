@@ -279,11 +279,11 @@ static const char *mesh_kind_why_not(const struct body *body, const struct site 
 }
 
 static void mesh_kind_load(const struct body *body, const struct site *site,
-                           const double direction[3], struct site_load *load)
+                           const double direction[3], bool tangential, struct site_load *load)
 {
     struct family_load *family = &load->family[0];
     const struct mesh_body_face *face = &body->mesh->faces[site->spot.facet];
-    if (body->rigid || body->mesh->mode_count == 0)
+    if (tangential || body->rigid || body->mesh->mode_count == 0)
         return;
     family->acts = true;
     family->mesh.face = site->spot.facet;
@@ -376,6 +376,8 @@ const struct body_kind mesh_kind = {
     .families = mesh_family_alone,
     .family_count = 1,
     .load = mesh_kind_load,
+    .why_no_friction = "its flexibility along the surface is not known: declare it as rigid: "
+                       "true, with its vibration left out",
     .material_at = mesh_kind_material_at,
     .theory = mesh_kind_theory_name,
     .describe = mesh_kind_describe,

@@ -67,10 +67,11 @@ static const char *rod_why_not(const struct body *body, const struct site *site)
     return bar_why_not(body, site);
 }
 
+/* It has longitudinal waves only: a force across the axis moves it as a rigid body. */
 static void rod_load(const struct body *body, const struct site *site, const double direction[3],
-                     struct site_load *load)
+                     bool tangential, struct site_load *load)
 {
-    bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
+    bar_load_along(body, site, direction, tangential, &load->family[BAR_LONGITUDINAL]);
 }
 
 static struct solid rod_solid(const struct body *body)

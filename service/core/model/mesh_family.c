@@ -45,10 +45,10 @@ double mesh_ratio_flexibility(const struct body *body)
 }
 
 void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
-                      struct site_load *load)
+                      bool tangential, struct site_load *load)
 {
     struct family_load *family = &load->family[0];
-    if (!body_is_flexible(body))
+    if (tangential || !body_is_flexible(body))
         return;
     double longest = mesh_ratio_of(body).size;
     family->acts = true;

@@ -18,7 +18,7 @@ extern const struct mode_family mesh_family;
 /* Kinds with a box: the load without its flexibility, which the lender of the modes sets
  * (solve/vibration.c); the name of the theory. */
 void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
-                      struct site_load *load);
+                      bool tangential, struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
 
 /* Members of a kind that vibrates as its `box`, and the keys for that. */

@@ -13,7 +13,16 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 {
     struct site_load load = {0};
     if (body->kind->load)
-        body->kind->load(body, site, direction, &load);
+        body->kind->load(body, site, direction, false, &load);
+    return load;
+}
+
+struct site_load site_load_tangential(const struct body *body, const struct site *site,
+                                      const double direction[3])
+{
+    struct site_load load = {0};
+    if (body->kind->load && !body_why_no_friction(body))
+        body->kind->load(body, site, direction, true, &load);
     return load;
 }
 
