@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/bending_axes.c: a load across a round beam excites one family alone after
- * the turn, with the same compliance, and turning back is the inverse. */
+/* Mirrors service/core/model/bending_axes.c: a load across a round beam excites one family alone
+ * after the turn, with the same compliance, and turning back is the inverse. */
 #include "check.h"
 #include "model/bar.h"
 #include "model/bending_axes.h"
@@ -56,6 +56,45 @@ static void one_plane_does_for_a_round_section(void **state)
     assert_int_equal(bending_axes_common_family(&round, BAR_TWIST), BAR_TWIST);
 }
 
+/* A contact at any place around the section, with tangents along the axis, across it, and aslant:
+ * axes by its normal load. Compliances between all rows stay; a force along the axis bends in the
+ * normal's plane, one across it in the other. */
+static void tangential_loads_turn_with_the_normal(void **state)
+{
+    (void)state;
+    enum { ROWS = 4 };
+    struct body round = beam(0.0, 0.0), square = beam(0.02, 0.02);
+    for (double angle = -3.0; angle < 3.1; angle += 0.37) {
+        const struct body *body = angle > 0.0 ? &round : &square;
+        double s = sin(angle), c = cos(angle);
+        const struct site site = {.face = SITE_BEAM_SIDE, .point = {-0.19, 0.01 * s, 0.01 * c}};
+        const double t[ROWS][3] = {
+            {0.0, s, c}, {1.0, 0.0, 0.0}, {0.0, c, -s}, {0.8, 0.6 * c, -0.6 * s}};
+        struct site_load loads[ROWS], turned[ROWS];
+        struct bending_axes axes;
+        for (int i = 0; i < ROWS; i++)
+            turned[i] = loads[i] =
+                i ? site_load_tangential(body, &site, t[i]) : site_load_make(body, &site, t[i]);
+        assert_true(bending_axes_choose(body, &loads[0], &axes));
+        for (int i = 0; i < ROWS; i++)
+            bending_axes_turn_load(body, &axes, &turned[i]);
+        assert_false(turned[0].family[BAR_BENDING_Y].acts || turned[1].family[BAR_BENDING_Y].acts);
+        assert_true(turned[1].family[BAR_BENDING_Z].acts && turned[2].family[BAR_BENDING_Y].acts);
+        assert_false(turned[2].family[BAR_BENDING_Z].acts);
+        near(fabs(turned[1].family[BAR_BENDING_Z].bar.moment), 0.01, 1e-16);
+        near(fabs(turned[2].family[BAR_TWIST].bar.moment), 0.01, 1e-16);
+        for (int i = 0; i < ROWS; i++)
+            for (int j = 0; j < ROWS; j++) {
+                double before = 0.0, after = 0.0;
+                for (size_t f = 0; f < body->kind->family_count; f++) {
+                    before += modal_compliance(body, f, &loads[i].family[f], &loads[j].family[f]);
+                    after += modal_compliance(body, f, &turned[i].family[f], &turned[j].family[f]);
+                }
+                near(after, before, 1e-14 * compliance(body, &loads[0]));
+            }
+    }
+}
+
 static void unlike_planes_stay(void **state)
 {
     (void)state;
@@ -90,6 +129,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_plane_does_for_a_round_section),
+        cmocka_unit_test(tangential_loads_turn_with_the_normal),
         cmocka_unit_test(unlike_planes_stay),
         cmocka_unit_test(coordinates_turn_there_and_back),
     };

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/rigid.c: inverse masses and velocity changes from the mass matrix written
- * out, for free, pinned and held bodies. */
+/* Mirrors service/core/model/rigid.c: inverse masses and velocity changes from the mass matrix
+ * written out, for free, pinned and held bodies. */
 #include "check.h"
 #include "model/rigid.h"
 #include "model/vector.h"
@@ -74,6 +74,44 @@ static void a_body_on_a_pin(void **state)
     }
 }
 
+/* Rows of an oblique impact: the notes' steel sphere on the paper's beam, 1/kg. Along the axis a
+ * force on the side turns the beam by its lever arm: 3.5/m + 1/M + r^2/J, and with the normal
+ * x r/J; across the axis it twists: 3.5/m + 1/M + 2/M + x^2/J. */
+static void rows_of_an_oblique_impact(void **state)
+{
+    (void)state;
+    struct body sphere = {.id = "ball",
+                          .kind = &sphere_kind,
+                          .material = {"steel", 210e9, 0.3, 7800.0, INFINITY, 0.0},
+                          .radius = 0.015};
+    struct body bar = {.id = "beam",
+                       .kind = &beam_kind,
+                       .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
+                       .radius = 0.01,
+                       .length = 1.0,
+                       .tip_radius = INFINITY};
+    assert_int_equal(body_complete(&sphere, NULL), PERCUSS_OK);
+    assert_int_equal(body_complete(&bar, NULL), PERCUSS_OK);
+    static const double t[3][3] = {{0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}};
+    static const double expected[2][4] = {{10.24758, 0.0, 32.92064, 35.27708},
+                                          {10.75814, -0.026871, 32.92064, 35.78764}};
+    for (int k = 0; k < 2; k++) {
+        const double below[3] = {0.0, 0.0, -0.015}, top[3] = {k ? 0.31 - 0.5 : 0.0, 0.0, 0.01};
+        double w[3][3];
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                w[i][j] = rigid_inverse_mass(&sphere, below, t[i], below, t[j]) +
+                          rigid_inverse_mass(&bar, top, t[i], top, t[j]);
+        near(w[0][0], expected[k][0], 5e-6);
+        near(w[0][1], expected[k][1], 5e-7);
+        near(w[1][0], w[0][1], 1e-16);
+        near(w[1][1], expected[k][2], 5e-6);
+        near(w[2][2], expected[k][3], 5e-6);
+        near(w[0][2], 0.0, 0.0);
+        near(w[1][2], 0.0, 0.0);
+    }
+}
+
 static void held_bodies_do_not_move(void **state)
 {
     (void)state;
@@ -133,6 +171,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_free_body),
         cmocka_unit_test(a_body_on_a_pin),
+        cmocka_unit_test(rows_of_an_oblique_impact),
         cmocka_unit_test(held_bodies_do_not_move),
         cmocka_unit_test(impulses_and_inverse_masses_agree),
     };
