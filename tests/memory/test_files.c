@@ -91,6 +91,24 @@ static bool loads_the_catalogue(void *context)
     return whole;
 }
 
+/* A catalogue with friction. */
+static bool loads_friction(void *context)
+{
+    (void)context;
+    static const char text[] = "materials: {m: {young: 1e9, poisson: 0.3, density: 1}}\n"
+                               "bodies: {w: {shape: half-space, material: m}}\n"
+                               "friction: [{between: [m, m], coefficient: 0.2}]\n";
+    struct body_set *set;
+    struct fault fault = {""};
+    failing_begin();
+    enum percuss_status status = catalogue_parse(text, sizeof text - 1, "f.yaml", &set, &fault);
+    bool whole = !is_out_of_memory(status, fault.text);
+    assert_int_equal(set != NULL, whole);
+    assert_true(!whole || set->friction_count == 1);
+    body_set_free(set);
+    return whole;
+}
+
 /* Dents go into the store and come out again with their reply, or nothing has changed. */
 static bool keeps_a_dent(void *context)
 {
@@ -170,6 +188,7 @@ static void a_catalogue(void **state)
 {
     (void)state;
     assert_true(fail_each("catalogue", loads_the_catalogue, NULL, 100) > 3);
+    assert_true(fail_each("friction", loads_friction, NULL, 100) > 3);
 }
 
 static void specimens(void **state)

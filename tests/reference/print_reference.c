@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "catalogue/keys.h"
-#include "respond/settings.h"
 #include "model/body_kind.h"
+#include "respond/settings.h"
 
 struct row {
     const char *name, *allowed;
@@ -130,6 +130,7 @@ static void print_catalogue(const struct form *form)
     print_section(form, "The whole file", &keys_top);
     print_section(form, "A material", &keys_material);
     print_section(form, "Contact", &keys_contact);
+    print_section(form, "Friction between two materials", &keys_friction);
     print_section(form, "Every body", &keys_body);
     const struct body_kind *kind;
     for (size_t i = 0; (kind = body_kind_at(i)); i++)

@@ -246,6 +246,124 @@ static void materials_free(struct materials *materials)
     free(materials->list);
 }
 
+/* Friction between materials. */
+
+struct stated_pair {
+    struct friction_pair pair;
+    size_t position; /* in the list */
+    size_t line;
+};
+
+static enum percuss_status read_between(struct reader *reader, const yaml_node_t *list,
+                                        const struct materials *materials,
+                                        struct friction_pair *pair)
+{
+    size_t mark = reader_enter(reader, "between");
+    if (reader_count(list) != 2)
+        return reader_refuse_value(reader, list, key_allowed(&keys_friction.keys[0]).text);
+    for (size_t i = 0; i < 2; i++) {
+        const yaml_node_t *name = reader_element(reader, list, i);
+        size_t position = name->type == YAML_SCALAR_NODE
+                              ? names_find(&materials->names, (const char *)name->data.scalar.value)
+                              : materials->names.count;
+        if (position == materials->names.count)
+            return reader_refuse(reader, name, "%s: unknown material; must be one of %s",
+                                 reader_excerpt(name).text, names_list(&materials->names).text);
+        memcpy(pair->between[i], materials->list[position].material.name, PERCUSS_ID_SIZE);
+    }
+    /* in order */
+    if (strcmp(pair->between[0], pair->between[1]) > 0) {
+        char first[PERCUSS_ID_SIZE];
+        memcpy(first, pair->between[0], PERCUSS_ID_SIZE);
+        memcpy(pair->between[0], pair->between[1], PERCUSS_ID_SIZE);
+        memcpy(pair->between[1], first, PERCUSS_ID_SIZE);
+    }
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_pair(struct reader *reader, const yaml_node_t *mapping,
+                                     const struct materials *materials, struct friction_pair *pair)
+{
+    *pair = (struct friction_pair){.deviation = NAN};
+    enum percuss_status status =
+        keys_read(reader, (struct entry){mapping, mapping}, &keys_friction, pair);
+    if (!status)
+        status =
+            read_between(reader, reader_find(reader, mapping, "between").value, materials, pair);
+    if (isnan(pair->deviation))
+        pair->deviation = FRICTION_USUAL_DEVIATION * pair->coefficient;
+    return status;
+}
+
+/* Equal ones by their place in the file. */
+static int stated_pair_order(const void *a, const void *b)
+{
+    const struct stated_pair *x = a, *y = b;
+    int order = friction_pair_order(&x->pair, &y->pair);
+    return order ? order : (x->position > y->position) - (x->position < y->position);
+}
+
+/* Sorts them, and refuses a pair that stands twice. */
+static enum percuss_status sort_pairs(struct reader *reader, const yaml_node_t *list,
+                                      struct stated_pair *pairs, size_t count)
+{
+    qsort(pairs, count, sizeof *pairs, stated_pair_order);
+    for (size_t i = 1; i < count; i++) {
+        const struct stated_pair *first = &pairs[i - 1], *again = &pairs[i];
+        char index[24];
+        if (friction_pair_order(&first->pair, &again->pair) != 0)
+            continue;
+        snprintf(index, sizeof index, "[%zu]", again->position);
+        reader_enter(reader, index);
+        return reader_refuse(reader, reader_element(reader, list, again->position),
+                             "between %s and %s: must stand once, but is on line %zu already",
+                             again->pair.between[0], again->pair.between[1], first->line);
+    }
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_pairs(struct reader *reader, const yaml_node_t *list,
+                                      const struct materials *materials, struct stated_pair *pairs,
+                                      size_t count)
+{
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t i = 0; !status && i < count; i++) {
+        const yaml_node_t *mapping = reader_element(reader, list, i);
+        char index[24];
+        snprintf(index, sizeof index, "[%zu]", i);
+        size_t mark = reader_enter(reader, index);
+        status = read_pair(reader, mapping, materials, &pairs[i].pair);
+        pairs[i].position = i;
+        pairs[i].line = mapping->start_mark.line + 1;
+        if (!status)
+            reader_leave(reader, mark);
+    }
+    return status ? status : sort_pairs(reader, list, pairs, count);
+}
+
+/* Nothing where the key is absent or its list empty. */
+static enum percuss_status read_friction(struct reader *reader, const yaml_node_t *list,
+                                         const struct materials *materials, struct body_set *set)
+{
+    size_t count = list ? reader_count(list) : 0;
+    if (count == 0)
+        return PERCUSS_OK;
+    struct stated_pair *pairs = malloc(count * sizeof *pairs);
+    set->friction = malloc(count * sizeof *set->friction);
+    size_t mark = reader_enter(reader, "friction");
+    enum percuss_status status = pairs && set->friction
+                                     ? read_pairs(reader, list, materials, pairs, count)
+                                     : out_of_memory(reader->name, reader->fault);
+    if (!status) {
+        for (size_t i = 0; i < count; i++)
+            set->friction[set->friction_count++] = pairs[i].pair;
+        reader_leave(reader, mark);
+    }
+    free(pairs);
+    return status;
+}
+
 /* The kind decides which other keys are allowed. */
 static enum percuss_status read_kind(struct reader *reader, struct entry entry, struct body *body)
 {
@@ -377,8 +495,8 @@ static enum percuss_status check_marks(struct reader *reader, const yaml_node_t 
                                       "true`: the file may be cut off");
 }
 
-/* Reads a whole document into an empty set: materials, bodies (completed), contact; the revision is
- * left to the caller. After a failure the set holds nothing. */
+/* Reads a whole document into an empty set: materials, friction, bodies (completed), contact; the
+ * revision is left to the caller. After a failure the set holds nothing. */
 static enum percuss_status content_read(struct reader *reader, struct body_set *set)
 {
     struct materials materials = {0};
@@ -389,6 +507,9 @@ static enum percuss_status content_read(struct reader *reader, struct body_set *
         status = check_marks(reader, root, set);
     if (!status)
         status = read_materials(reader, reader_find(reader, root, "materials").value, &materials);
+    if (!status)
+        status =
+            read_friction(reader, reader_find(reader, root, "friction").value, &materials, set);
     if (!status)
         status = read_bodies(reader, reader_find(reader, root, "bodies").value, &materials, set);
     materials_free(&materials);
@@ -523,6 +644,21 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_text(hash, "rigid");
 }
 
+static void hash_friction(struct hash *hash, const struct body_set *set)
+{
+    if (set->friction_count == 0)
+        return;
+    hash_text(hash, "friction");
+    hash_number(hash, set->friction_count);
+    for (size_t i = 0; i < set->friction_count; i++) {
+        const struct friction_pair *pair = &set->friction[i];
+        hash_text(hash, pair->between[0]);
+        hash_text(hash, pair->between[1]);
+        hash_double(hash, pair->coefficient);
+        hash_double(hash, pair->deviation);
+    }
+}
+
 static int by_id(const void *a, const void *b)
 {
     const struct body *const *x = a, *const *y = b;
@@ -530,8 +666,8 @@ static int by_id(const void *a, const void *b)
 }
 
 /* Writes set->revision: 32 hexadecimal digits, a hash of the bodies (ids, shapes, all numbers'
- * bits, materials in use) and of the contact's settings, independent of the order of the bodies and
- * the layout of the file. PERCUSS_OK or PERCUSS_INTERNAL without memory. */
+ * bits, materials in use), of the contact's settings and of the friction, independent of the order
+ * of bodies and pairs and the layout of the file. PERCUSS_OK or PERCUSS_INTERNAL without memory. */
 static enum percuss_status revision_write(struct body_set *set, struct fault *fault)
 {
     /* by id, wherever in the file they stand */
@@ -549,6 +685,7 @@ static enum percuss_status revision_write(struct body_set *set, struct fault *fa
     hash_number(&hash, set->count);
     for (size_t i = 0; i < set->count; i++)
         hash_body(&hash, order[i]);
+    hash_friction(&hash, set);
     free(order);
     snprintf(set->revision, sizeof set->revision, "%016" PRIx64 "%016" PRIx64,
              (uint64_t)(hash.state >> 64), (uint64_t)hash.state);

@@ -339,6 +339,9 @@ static const struct key top_keys[] = {
      KEY_SAYS(NULL, "the bodies by their ids, which requests name: 1 to 63 bytes")},
     {"contact", KEY_SECTION, .nested = &keys_contact,
      KEY_SAYS("the defaults of its keys", "how contacts are modelled")},
+    {"friction", KEY_LIST, .required = false,
+     .allowed = "a list of mappings of between, coefficient, deviation",
+     KEY_SAYS("none", "friction between materials, of which each pair stands once")},
     {"begin", KEY_FLAG, KEY_OF(body_set, begin),
      KEY_SAYS("false",
               "the first line of a file that must end with `end: true`: one that is cut off, or "
@@ -354,6 +357,17 @@ static const struct key contact_keys[] = {
               "that is known (rods, cylinders, spheres; a beam's side has its own either way)")},
 };
 const struct key_table keys_contact = {"contact", TABLE(contact_keys)};
+
+static const struct key friction_keys[] = {
+    {"between", KEY_LIST, .required = true,
+     .allowed = "a list of two names of materials, which may be the same",
+     KEY_SAYS(NULL, "the materials of the two surfaces that touch, in either order")},
+    {"coefficient", KEY_NUMBER, &limit_friction, true, KEY_OF(friction_pair, coefficient),
+     KEY_SAYS(NULL, "coefficient of Coulomb friction between them")},
+    {"deviation", KEY_NUMBER, &limit_deviation, false, KEY_OF(friction_pair, deviation),
+     KEY_SAYS("a fifth of the coefficient", "standard deviation of the coefficient")},
+};
+const struct key_table keys_friction = {"a pair of materials", TABLE(friction_keys)};
 
 static const struct key material_keys[] = {
     {"young", KEY_NUMBER, &limit_young, true, KEY_OF(stated_material, material.young),

@@ -18,6 +18,7 @@ struct stated_material {
 
 extern const struct key_table keys_top;      /* into struct body_set */
 extern const struct key_table keys_contact;  /* into struct body_set */
+extern const struct key_table keys_friction; /* into struct friction_pair, but for its names */
 extern const struct key_table keys_material; /* into struct stated_material */
 extern const struct key_table keys_body; /* into struct body: those of every kind, shape first */
 

@@ -171,6 +171,25 @@ const struct body_order *body_set_order(const struct body_set *set, const char *
     return NULL;
 }
 
+int friction_pair_order(const void *a, const void *b)
+{
+    const struct friction_pair *x = a, *y = b;
+    int order = strcmp(x->between[0], y->between[0]);
+    return order ? order : strcmp(x->between[1], y->between[1]);
+}
+
+const struct friction_pair *body_set_friction(const struct body_set *set, const struct material *a,
+                                              const struct material *b)
+{
+    struct friction_pair wanted;
+    bool swapped = strcmp(a->name, b->name) > 0;
+    if (set->friction_count == 0)
+        return NULL;
+    memcpy(wanted.between[0], swapped ? b->name : a->name, PERCUSS_ID_SIZE);
+    memcpy(wanted.between[1], swapped ? a->name : b->name, PERCUSS_ID_SIZE);
+    return bsearch(&wanted, set->friction, set->friction_count, sizeof wanted, friction_pair_order);
+}
+
 struct material body_material_at(const struct body *body, const struct site *site)
 {
     return body->kind->material_at ? body->kind->material_at(body, site) : body->material;
@@ -201,6 +220,7 @@ void body_set_clear(struct body_set *set)
     for (size_t i = 0; i < set->order_count; i++)
         body_order_clear(&set->orders[i]);
     ritz_store_free(set->boxes);
+    free(set->friction);
     free(set->orders);
     free(set->meshes);
     free(set->bodies);

@@ -187,6 +187,8 @@ struct body_set {
     size_t order_count;
     struct ritz_store *boxes; /* vibration of its blocks and cylinders; NULL: each worker's own */
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
+    struct friction_pair *friction;     /* [friction_count], by the order of their names */
+    size_t friction_count;
     bool begin, end; /* marks of the text it came from: one without the other was cut off */
     char revision[PERCUSS_ID_SIZE]; /* hash of everything that can change an answer */
 };
@@ -194,6 +196,14 @@ struct body_set {
 /* The body or the order of that id, or NULL. */
 const struct body *body_set_find(const struct body_set *set, const char *id);
 const struct body_order *body_set_order(const struct body_set *set, const char *id);
+
+/* The friction that the catalogue states between two materials, known by their names, in either
+ * order; NULL: none. */
+const struct friction_pair *body_set_friction(const struct body_set *set, const struct material *a,
+                                              const struct material *b);
+
+/* The order of pairs, for qsort and bsearch. */
+int friction_pair_order(const void *a, const void *b);
 
 /* Frees the members of a set, which came from malloc, and leaves it empty; body_set_free frees the
  * set too (NULL is allowed). */

@@ -30,6 +30,10 @@ const struct limit limit_shear_factor = {
     1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)", QUANTITY_NUMBER};
 const struct limit limit_scale = {1e-6,           1e6, false, false, "a number > 0 (1e-6 to 1e6)",
                                   QUANTITY_NUMBER};
+const struct limit limit_friction = {
+    0.0, 10.0, false, false, "a coefficient >= 0 and <= 10", QUANTITY_NUMBER};
+const struct limit limit_deviation = {
+    0.0, 10.0, false, false, "a standard deviation >= 0 and <= 10", QUANTITY_NUMBER};
 const struct limit limit_modes = {1.0,
                                   LIMIT_MODES,
                                   false,

@@ -31,6 +31,8 @@ extern const struct limit limit_damping;      /* ratio; 1 would no longer oscill
 extern const struct limit limit_loss_factor;  /* ratio; half of it damps a mode */
 extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
 extern const struct limit limit_scale;        /* of a mesh's size */
+extern const struct limit limit_friction;     /* Coulomb's coefficient */
+extern const struct limit limit_deviation;    /* of such a coefficient */
 extern const struct limit limit_modes;        /* a whole number */
 
 /* False for NAN and the infinities too. */

@@ -26,6 +26,16 @@ struct material {
 #define MATERIAL_SOFT               10e9
 #define MATERIAL_SOFT_LOSS          0.01
 
+/* Friction between two materials of a catalogue, which may be the same one. */
+struct friction_pair {
+    char between[2][PERCUSS_ID_SIZE]; /* their names, the first not after the second in order */
+    double coefficient;               /* of Coulomb's law */
+    double deviation;                 /* standard deviation of the coefficient */
+};
+
+/* Deviation of a coefficient that is stated without one, as a share of it. */
+#define FRICTION_USUAL_DEVIATION 0.2
+
 /* Shear modulus E / (2 (1 + nu)), Pa. */
 static inline double material_shear_modulus(const struct material *material)
 {

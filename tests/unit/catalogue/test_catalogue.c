@@ -314,6 +314,132 @@ static void changes_its_revision_with_the_content(void **state)
     }
 }
 
+#define PAIRED                                                                                     \
+    "materials:\n"                                                                                 \
+    "  steel: {young: 210e9, poisson: 0.3, density: 7800}\n"                                       \
+    "  glass: {young: 48e9, poisson: 0.2, density: 2800}\n"                                        \
+    "  lead:  {young: 16e9, poisson: 0.44, density: 11340}\n"                                      \
+    "bodies:\n"                                                                                    \
+    "  s: {shape: sphere, material: steel, radius: 0.01}\n"                                        \
+    "  g: {shape: sphere, material: glass, radius: 0.01}\n"                                        \
+    "  l: {shape: sphere, material: lead, radius: 0.01}\n"
+
+static const struct friction_pair *between(const struct body_set *set, const char *a, const char *b)
+{
+    const struct friction_pair *pair =
+        body_set_friction(set, &body_set_find(set, a)->material, &body_set_find(set, b)->material);
+    assert_ptr_equal(pair, body_set_friction(set, &body_set_find(set, b)->material,
+                                             &body_set_find(set, a)->material));
+    return pair;
+}
+
+/* By the materials' names, in either order, and whatever parameters a request varies. */
+static void finds_the_friction_of_two_materials(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        parse_good("friction:\n- {between: [steel, glass], coefficient: 0.2}\n"
+                   "- {between: [lead, lead], coefficient: 10, deviation: 0}\n"
+                   "- {between: [glass, glass], coefficient: 0.092, deviation: 0.006}\n" PAIRED);
+    assert_int_equal(set->friction_count, 3);
+    assert_true(between(set, "s", "g")->coefficient == 0.2);
+    near(between(set, "s", "g")->deviation, 0.04, 1e-17);
+    assert_true(between(set, "g", "g")->coefficient == 0.092);
+    assert_true(between(set, "g", "g")->deviation == 0.006);
+    assert_true(between(set, "l", "l")->coefficient == 10.0);
+    assert_true(between(set, "l", "l")->deviation == 0.0);
+    assert_null(between(set, "s", "s"));
+    assert_null(between(set, "s", "l"));
+    assert_null(between(set, "g", "l"));
+    struct body varied;
+    const struct body_variation softer = {PERCUSS_PARAMETER_YOUNG, 2e11};
+    assert_int_equal(body_vary(body_set_find(set, "s"), &softer, 1, &varied, NULL), PERCUSS_OK);
+    assert_ptr_equal(body_set_friction(set, &varied.material, &body_set_find(set, "g")->material),
+                     between(set, "s", "g"));
+    /* a material that no catalogue names */
+    const struct material own = {"", 210e9, 0.3, 7800.0, INFINITY, 0.0};
+    assert_null(body_set_friction(set, &own, &own));
+    body_set_free(set);
+    set = parse_good(PAIRED "friction: []\n");
+    assert_null(between(set, "s", "g"));
+    body_set_free(set);
+}
+
+/* Every pair of many materials. */
+static void finds_each_of_many_pairs(void **state)
+{
+    (void)state;
+    enum { MATERIALS = 40 };
+    size_t room = 256 * 1024, length = 0;
+    char *text = malloc(room);
+    assert_non_null(text);
+    length += (size_t)snprintf(text, room,
+                               "bodies: {s: {shape: half-space, material: m0}}\nmaterials:\n");
+    for (int i = 0; i < MATERIALS; i++)
+        length += (size_t)snprintf(text + length, room - length,
+                                   "  m%d: {young: 1e9, poisson: 0.3, density: 1000}\n", i);
+    length += (size_t)snprintf(text + length, room - length, "friction:\n");
+    for (int i = 0; i < MATERIALS; i++)
+        for (int j = 0; j <= i; j++)
+            length += (size_t)snprintf(text + length, room - length,
+                                       "- {between: [m%d, m%d], coefficient: 0.%02d%02d}\n",
+                                       i % 2 ? i : j, i % 2 ? j : i, i, j);
+    struct body_set *set = parse_good(text);
+    free(text);
+    for (int i = 0; i < MATERIALS; i++)
+        for (int j = 0; j <= i; j++) {
+            struct material a = {.young = 1.0}, b = {.young = 1.0};
+            snprintf(a.name, sizeof a.name, "m%d", i);
+            snprintf(b.name, sizeof b.name, "m%d", j);
+            const struct friction_pair *pair = body_set_friction(set, &a, &b);
+            assert_non_null(pair);
+            near(pair->coefficient, 0.01 * i + 0.0001 * j, 1e-15);
+            assert_ptr_equal(body_set_friction(set, &b, &a), pair);
+        }
+    body_set_free(set);
+}
+
+/* The revision is what it was without the key; it depends on the pairs, not on how they are
+ * written. */
+static void friction_belongs_to_the_revision(void **state)
+{
+    (void)state;
+    static const char *const same[] = {
+        "friction: [{between: [steel, glass], coefficient: 0.2}, "
+        "{between: [lead, lead], coefficient: 1}]\n",
+        "friction:\n- {coefficient: 1.0, between: [lead, lead], deviation: 0.2}\n"
+        "- {between: [glass, steel], coefficient: 2e-1}\n",
+    };
+    static const char *const others[] = {
+        "friction: [{between: [steel, glass], coefficient: 0.2}]\n",
+        "friction: [{between: [steel, glass], coefficient: 0.3}]\n",
+        "friction: [{between: [steel, glass], coefficient: 0.2, deviation: 0.05}]\n",
+        "friction: [{between: [steel, lead], coefficient: 0.2}]\n",
+        "friction: [{between: [steel, steel], coefficient: 0.2}]\n",
+        "friction: [{between: [steel, steel], coefficient: 0}]\n",
+    };
+    char text[2048], plain[PERCUSS_ID_SIZE], first[PERCUSS_ID_SIZE], other[PERCUSS_ID_SIZE];
+    char seen[COUNT(others)][PERCUSS_ID_SIZE];
+    revision_of(PAIRED, plain);
+    assert_string_equal(plain, "239e694d0baf2282fa901d6e04024cd2");
+    revision_of("friction: []\n" PAIRED, other);
+    assert_string_equal(other, plain);
+    for (size_t i = 0; i < COUNT(same); i++) {
+        snprintf(text, sizeof text, "%s%s", PAIRED, same[i]);
+        revision_of(text, i == 0 ? first : other);
+    }
+    assert_string_equal(other, first);
+    assert_string_not_equal(first, plain);
+    for (size_t i = 0; i < COUNT(others); i++) {
+        snprintf(text, sizeof text, "%s%s", PAIRED, others[i]);
+        revision_of(text, seen[i]);
+        assert_string_not_equal(seen[i], plain);
+        assert_string_not_equal(seen[i], first);
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(seen[i], seen[k]);
+    }
+}
+
 static void says_why_a_file_cannot_be_read(void **state)
 {
     (void)state;
@@ -444,6 +570,9 @@ int main(void)
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),
         cmocka_unit_test(reads_ends_of_two_words),
         cmocka_unit_test(changes_its_revision_with_the_content),
+        cmocka_unit_test(finds_the_friction_of_two_materials),
+        cmocka_unit_test(finds_each_of_many_pairs),
+        cmocka_unit_test(friction_belongs_to_the_revision),
         cmocka_unit_test(says_why_a_file_cannot_be_read),
         cmocka_unit_test(loads_many_bodies),
         cmocka_unit_test(survives_damaged_files),

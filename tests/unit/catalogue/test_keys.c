@@ -299,11 +299,65 @@ static void refuses_bad_tops(void **state)
     parse_bad(MATERIALS, 4, "bodies: nothing: must be a mapping of ids");
     parse_bad(MATERIALS "  {}\n", 5, "bodies: 0 entries: must be 1 to");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\nsettings: 1\n", 6,
-              "settings: unknown key; the keys of the catalogue are materials, bodies, contact");
+              "settings: unknown key; the keys of the catalogue are materials, bodies, contact, "
+              "friction, "
+              "begin, end");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {compliance: exact}\n",
               6, "contact.compliance: exact: must be one of half-space, matched");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {friction: 1}\n", 6,
               "contact: friction: unknown key; the keys of contact are compliance");
+}
+
+/* Of a list of pairs that begins on line 6. */
+static void refuses_bad_friction(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        unsigned line;
+        const char *fragment;
+    } bad[] = {
+        {" 0.2", 6, "friction: 0.2: must be a list of mappings of between, coefficient, deviation"},
+        {" {between: [steel, glass], coefficient: 0.2}", 6, "friction: a mapping: must be a list"},
+        {" [0.2]", 6, "friction[0]: 0.2: must be a mapping of between, coefficient, deviation"},
+        {"\n- {between: [steel, glass]}", 7,
+         "friction[0].coefficient: missing: must be a coefficient >= 0 and <= 10"},
+        {"\n- {coefficient: 0.2}", 7,
+         "friction[0].between: missing: must be a list of two names of materials"},
+        {"\n- {between: [steel, glass], coefficient: 0.2}\n- {between: [steel], coefficient: 0.2}",
+         8, "friction[1].between: a list: must be a list of two names of materials, which may be"},
+        {"\n- {between: steel, coefficient: 0.2}", 7,
+         "friction[0].between: steel: must be a list of two names of materials"},
+        {"\n- between: [steel,\n    brass]\n  coefficient: 0.2", 8,
+         "friction[0].between: brass: unknown material; must be one of glass, steel"},
+        {"\n- {between: [[steel], glass], coefficient: 0.2}", 7,
+         "friction[0].between: a list: unknown material"},
+        {"\n- between: [steel, glass]\n  coefficient: 10.1", 8,
+         "friction[0].coefficient: 10.1: must be a coefficient >= 0 and <= 10"},
+        {"\n- {between: [steel, glass], coefficient: -0.1}", 7, "coefficient: -0.1: must be"},
+        {"\n- {between: [steel, glass], coefficient: 20 %}", 7, "coefficient: 20 %: must be"},
+        {"\n- {between: [steel, glass], coefficient: 0.2, deviation: -1}", 7,
+         "friction[0].deviation: -1: must be a standard deviation >= 0 and <= 10"},
+        {"\n- {between: [steel, glass], coefficient: 0.2, deviation: nan}", 7, "deviation: nan"},
+        {"\n- {between: [steel, glass], coefficient: 0.2, static: 0.3}", 7,
+         "friction[0]: static: unknown key; the keys of a pair of materials are between, "
+         "coefficient, deviation"},
+        /* in either order, whatever it says */
+        {"\n- {between: [steel, glass], coefficient: 0.2}"
+         "\n- {between: [steel, steel], coefficient: 0.3}"
+         "\n- {between: [glass, steel], coefficient: 0.2}",
+         9, "friction[2]: between glass and steel: must stand once, but is on line 7 already"},
+        {"\n- {between: [steel, steel], coefficient: 0.2}"
+         "\n- {between: [steel, steel], coefficient: 0.2}",
+         8, "friction[1]: between steel and steel: must stand once, but is on line 7 already"},
+        {" []\nfriction: []", 7, "friction: must stand once, but is on line 6 already"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 MATERIALS "  w: {shape: half-space, material: steel}\nfriction:%s\n", bad[i].text);
+        parse_bad(text, bad[i].line, bad[i].fragment);
+    }
 }
 
 /* However long the words, the message ends and shows where. */
@@ -331,6 +385,7 @@ int main(void)
         cmocka_unit_test(refuses_bad_materials),
         cmocka_unit_test(refuses_a_shear_rule_outside_its_range),
         cmocka_unit_test(refuses_bad_tops),
+        cmocka_unit_test(refuses_bad_friction),
         cmocka_unit_test(bounds_its_messages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
