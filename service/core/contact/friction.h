@@ -10,9 +10,9 @@
  *
  *   share_i(d) = F(m) - F(y_i) - (m - y_i) F'(y_i) + (d - m) (F'(m) - F'(y_i)),  m = min(d, y_i+1)
  *
- * (their sum is F), and resists the tangential displacement u of body a's surface against b's, in
- * direction j, by kappa_j (F'(m) - F'(y_i)) per metre, as long as its own force is below the
- * coefficient of friction mu times its share: Coulomb's law, cell by cell. The last cell has no
+ * (their sum is F), and resists the tangential displacement u of body a's surface against b's by
+ * kappa (F'(m) - F'(y_i)) per metre, kappa a symmetric tensor, as long as its own force is below
+ * the coefficient of friction mu times its share: Coulomb's law, cell by cell. The last cell has no
  * upper end. Between updates of its history a normal law must be elastic and convex. */
 #ifndef PERCUSS_CONTACT_FRICTION_H
 #define PERCUSS_CONTACT_FRICTION_H
@@ -24,15 +24,20 @@
 struct friction {
     const struct contact_law *law; /* borrowed */
     double coefficient;            /* mu > 0 */
-    double ratio[2];               /* kappa: tangential over normal stiffness, by direction */
+    double ratio[3];               /* kappa: tangential over normal stiffness, xx, xy, yy */
     size_t count;                  /* of cells */
-    double *edge;                  /* [count]: y_i, m */
-    double *force, *slope;         /* [count]: of the normal law at the edges, N and N/m */
-    double *share;                 /* [count]: at the indentation, N */
-    double (*traction)[2];         /* [count]: tangential force over mu, N */
-    double indentation;            /* m */
-    double displacement[2];        /* since the touch, m */
-    double lost;                   /* by slip since friction_create, J */
+    /* the cells, [count]: y_i (m), the law's force and slope there (N, N/m), and share and slope of
+     * a cell that is closed throughout: share = base + stiffness d */
+    double *edge, *force, *slope, *base, *stiffness;
+    double depth; /* m, of the cells */
+    /* the history: at the indentation (m; <= 0: open), the share (N) and the tangential force over
+     * mu (N) of each cell by direction; displacement since the touch, m */
+    double *share, *traction[2];
+    double indentation;
+    double displacement[2];
+    double normal; /* force of the law there, N */
+    double stuck;  /* sum of the stiffnesses of cells that stick, N/m, not times kappa */
+    double lost;   /* by slip since friction_create, J */
 };
 
 /* Ratios of tangential to normal stiffness of two elastic half-spaces along the contact ellipse's
@@ -46,17 +51,27 @@ void friction_ratios(const struct hertz_contact *hertz, const struct material *a
                      const struct material *b, double ratio[2]);
 
 /* A contact without friction's history, with `count` > 0 cells from the arena. False: no memory. */
-bool friction_create(struct friction *friction, double coefficient, const double ratio[2],
+bool friction_create(struct friction *friction, double coefficient, const double ratio[3],
                      size_t count, struct arena *arena);
 
 /* The contact touches: its cells, all open, divide the indentations up to `depth` (m), the expected
  * largest one, by a law that stays until the contact opens. */
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth);
 
-/* Goes on to an indentation and a displacement, both in proportion; force[j] becomes the tangential
- * force of a on b, N. */
+/* A second history of the same cells, at their first touch: for ways that are tried. False: no
+ * memory. */
+bool friction_second(struct friction *second, const struct friction *friction, struct arena *arena);
+
+/* Copies cells and history. */
+void friction_copy(struct friction *to, const struct friction *from);
+
+/* Goes on to an indentation (<= 0: open) and a displacement, both in proportion; force[j] becomes
+ * the tangential force of a on b, N. */
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
                    double force[2]);
+
+/* The present tangential force, N. */
+void friction_force(const struct friction *friction, double force[2]);
 
 /* Recoverable energy of the cells that are closed, J. */
 double friction_stored(const struct friction *friction);

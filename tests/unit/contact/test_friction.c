@@ -10,7 +10,7 @@
 
 #include "check.h"
 
-static const double EQUAL[2] = {1.0, 1.0};
+static const double EQUAL[3] = {1.0, 0.0, 1.0};
 
 static struct friction unit_friction(struct contact_law *law, size_t cells, struct arena *arena)
 {
@@ -120,7 +120,7 @@ static void hit(struct oblique *oblique, size_t cells, int steps)
     struct arena arena = {0};
     struct contact_law law = contact_law_hertz(1.0);
     struct friction friction;
-    const double ratio[2] = {kappa, kappa};
+    const double ratio[3] = {kappa, 0.0, kappa};
     double depth = pow(1.25, 0.4), h = 2.9432752 * depth / steps;
     double d = 0.0, rate = 1.0, u[2] = {0.0, 0.0}, v[2], force[2] = {0.0, 0.0}, slope;
     assert_true(friction_create(&friction, mu, ratio, cells, &arena));
@@ -205,7 +205,7 @@ static void in_a_groove(void **state)
         struct friction friction;
         double z = 0.0, rate = 1.0, f = 0.0, force[2] = {0.0, 0.0}, slope, h = 1e-3;
         assert_true(friction_create(&friction, rebound[i][0],
-                                    (const double[2]){1.4 / 1.7, 1.4 / 1.7}, 256, &arena));
+                                    (const double[3]){1.4 / 1.7, 0.0, 1.4 / 1.7}, 256, &arena));
         friction_touch(&friction, &law, 1.5);
         do {
             rate -= 0.5 * h * M_SQRT2 * (f + force[0]);
