@@ -32,14 +32,15 @@ static const double BEARABLE = 0.5;
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
     /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
     step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
+    step->before = arena_take(arena, n, sizeof *step->before);
     step->matrix = arena_reserve(arena, n * n, sizeof(double));
-    if (!step->indentation || !step->target || !step->approach || !step->matrix)
+    if (!step->indentation || !step->target || !step->approach || !step->before || !step->matrix)
         return false;
     step->force = step->indentation + n;
     step->stiffness = step->force + n;
@@ -47,7 +48,8 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_force = step->approach + n;
     step->end_indentation = step->end_force + n;
     return coupling_create(&step->coupling, scene, arena) &&
-           midpoint_create(&step->midpoint, scene, arena);
+           midpoint_create(&step->midpoint, scene, arena) &&
+           friction_step_create(&step->friction, scene, friction_cells(accuracy), arena);
 }
 
 /* Approaches at the nodes and the end if no force acted on this step. */
@@ -56,7 +58,7 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 {
     double h = step_length(level);
     midpoint_enter(&step->midpoint, scene, motion, level, step->target);
-    for (size_t c = 0; c < scene->contacts; c++) {
+    for (size_t c = 0; c < scene_rows(scene); c++) {
         double *target = step->target[c];
         double gap = motion->gap[c];
         double travel = h * motion->gap_rate[c];
@@ -73,6 +75,7 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
     midpoint_take(&step->midpoint, scene, motion, step->force);
+    friction_step_take(&step->friction);
 }
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
@@ -83,14 +86,14 @@ void contact_step_leave(struct contact_step *step, const struct scene *scene, st
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
                          double (*const force)[NODES])
 {
-    struct kernel_load loads[PERCUSS_MAX_CONTACTS];
+    struct kernel_load loads[SCENE_MOST_ROWS];
     double sum = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         size_t used = 0;
         if (!(group->set->most_damping > 0.0))
             continue;
-        for (size_t c = 0; c < scene->contacts; c++)
+        for (size_t c = 0; c < scene_rows(scene); c++)
             if (group->participation[c])
                 loads[used++] = (struct kernel_load){group->participation[c], force[c]};
         sum += kernel_loss(group->set->tables[level], group->stride,
@@ -130,7 +133,7 @@ static void take_residual(const struct scene *scene, const double *force, double
     size_t n = scene->contacts;
     memset(taken, 0, n * sizeof *taken);
     for (size_t b = 0; b < n; b++) {
-        const double *by = scene->residual + b * n; /* symmetric */
+        const double *by = scene->residual + b * scene_rows(scene); /* symmetric */
         if (force[b] == 0.0)
             continue;
         for (size_t a = 0; a < n; a++)
@@ -160,7 +163,7 @@ static bool local_apart(const struct scene *scene, const double *approach, doubl
         take_residual(scene, force, taken);
         /* the update, and whether it was the last one */
         for (size_t c = 0; c < n; c++) {
-            double own = scene->residual[c * (n + 1)];
+            double own = scene->residual[c * (scene_rows(scene) + 1)];
             change[c] = (indentation[c] + own * force[c] + taken[c] - approach[c]) /
                         (1.0 + own * stiffness[c]);
             indentation[c] -= change[c];
@@ -202,7 +205,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
         for (size_t a = 0; a < n; a++) {
             excess[a] = indentation[a] - approach[a];
             for (size_t b = 0; b < n; b++) {
-                double c = scene->residual[a * n + b];
+                double c = scene->residual[a * scene_rows(scene) + b];
                 excess[a] += c * force[b];
                 matrix[a * n + b] = c * stiffness[b] + (a == b);
             }
@@ -228,7 +231,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
 
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
 {
-    return -scene->residual[contact * (scene->contacts + 1)] * stiffness < BEARABLE;
+    return -scene->residual[contact * (scene_rows(scene) + 1)] * stiffness < BEARABLE;
 }
 
 /* Solves contact by contact to a relative change below `last`, or else all at once. */
@@ -272,7 +275,7 @@ static void predict(struct contact_step *step, size_t contact, const struct cont
 /* Approaches at the step's end under its forces. */
 static void find_approaches(struct contact_step *step, const struct scene *scene, int level)
 {
-    if (scene->contacts == 1) {
+    if (scene_rows(scene) == 1) {
         const double *m = coupling_own(&step->coupling, level, 0)->by[NODES];
         const double *force = step->force[0];
         step->approach[0] = step->target[0][NODES] - ((m[0] * force[0] + m[1] * force[1]) +
@@ -280,16 +283,14 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
         return;
     }
     coupling_take_end(&step->coupling, scene, level, step->force, step->taken);
-    for (size_t c = 0; c < scene->contacts; c++)
+    for (size_t c = 0; c < scene_rows(scene); c++)
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
 
-/* Solves the contacts at the step's end, from the cubics' values, as exactly as the nodes. */
-static bool find_end(struct contact_step *step, const struct scene *scene, int level)
+/* Solves the contacts at the step's end for the approaches, from the values there are, as exactly
+ * as the nodes. */
+static bool find_end(struct contact_step *step, const struct scene *scene)
 {
-    find_approaches(step, scene, level);
-    for (size_t c = 0; c < scene->contacts; c++)
-        step->end_indentation[c] = collocation_last(step->indentation[c]);
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))
@@ -322,6 +323,164 @@ static enum contact_step_end solve_together(struct contact_step *step,
                : STEP_UNSOLVED;
 }
 
+/* Forces and indentations of the normals at the nodes. */
+static enum contact_step_end solve_normals(struct contact_step *step,
+                                           const struct node_problem *problem,
+                                           const struct contact_start *start)
+{
+    if (node_solve(problem, step->indentation, step->force, step->stiffness, &step->iterations))
+        return STEP_SOLVED;
+    return solve_together(step, problem, start);
+}
+
+/* ---- Friction ---- */
+
+/* The tangential forces and the normal ones in turn: some four rounds in an ordinary step, as the
+ * tangents' own equations are solved by Newton's method with the slopes of the cells that stick. */
+enum { MOST_ROUNDS = 30 };
+
+/* Change of the forces of friction `i` in a round, over its largest limit. */
+static double change_of(const struct contact_step *step, const struct scene *scene, size_t i)
+{
+    const struct scene_friction *friction = &scene->friction[i];
+    const double *normal = step->force[friction->contact];
+    double limit = 0.0;
+    double change = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        size_t row = scene_tangent(scene, i);
+        double slid = fabs(step->force[row][j] - step->before[row][j]) +
+                      fabs(step->force[row + 1][j] - step->before[row + 1][j]);
+        double pressed = fabs(normal[j] - step->before[friction->contact][j]);
+        limit = larger(limit, friction->coefficient * normal[j]);
+        change = larger(change, larger(slid, friction->coefficient * pressed));
+    }
+    return change > 0.0 ? change / limit : 0.0;
+}
+
+static struct friction_way way_of(const struct contact_step *step, const struct scene *scene,
+                                  size_t i, const struct contact_start *start)
+{
+    size_t row = scene_tangent(scene, i);
+    size_t rows[3] = {scene->friction[i].contact, row, row + 1};
+    struct friction_way way;
+    for (int r = 0; r < 3; r++) {
+        way.start[r] = start[rows[r]].indentation;
+        way.nodes[r] = step->indentation[rows[r]];
+        way.end[r] = step->end_indentation[rows[r]];
+    }
+    return way;
+}
+
+/* One round of Newton's method for the displacements of all tangents, each by itself:
+ * d_t + sum coupling F = target. False: no solution. */
+static bool improve_tangents(struct contact_step *step, const struct node_problem *problem)
+{
+    const struct scene *scene = problem->scene;
+    coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
+    for (size_t row = scene->contacts; row < scene_rows(scene); row++) {
+        const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, row)->by;
+        double excess[NODES];
+        double change[NODES];
+        for (int i = 0; i < NODES; i++)
+            excess[i] = step->indentation[row][i] - problem->target[row][i] + step->taken[row][i];
+        if (!node_solve_linear(m, step->stiffness[row], excess, change))
+            return false;
+        for (int i = 0; i < NODES; i++)
+            step->indentation[row][i] -= change[i];
+    }
+    return true;
+}
+
+/* Rounds until the forces change by less than `last` of their limits. */
+static enum contact_step_end solve_with_friction(struct contact_step *step,
+                                                 const struct node_problem *problem,
+                                                 const struct contact_start *start, double last)
+{
+    const struct scene *scene = problem->scene;
+    size_t size = scene_rows(scene) * sizeof *step->force;
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        double change = 0.0;
+        memcpy(step->before, step->force, size);
+        enum contact_step_end end = solve_normals(step, problem, start);
+        if (end != STEP_SOLVED)
+            return end;
+        for (size_t i = 0; i < scene->frictions; i++) {
+            size_t row = scene_tangent(scene, i);
+            const struct friction_way way = way_of(step, scene, i, start);
+            friction_step_nodes(&step->friction, i, &way, step->force[scene->friction[i].contact],
+                                step->force + row, step->stiffness + row);
+            change = larger(change, change_of(step, scene, i));
+        }
+        if (round > 0 && change <= last)
+            return STEP_SOLVED;
+        if (!improve_tangents(step, problem))
+            return STEP_UNSOLVED;
+        step->iterations++;
+    }
+    return STEP_UNSOLVED;
+}
+
+/* Approaches of the rows at the end less the residual flexibility's part by other rows' forces: of
+ * the contacts by the tangents', of tangent `row` by all. */
+static double less_residual(const struct contact_step *step, const struct scene *scene, size_t row)
+{
+    size_t rows = scene_rows(scene);
+    double approach = step->approach[row];
+    for (size_t b = row < scene->contacts ? scene->contacts : 0; b < rows; b++)
+        if (b != row)
+            approach -= scene->residual[row * rows + b] * step->end_force[b];
+    return approach;
+}
+
+/* The tangents at the end for the normals there. */
+static double end_tangents(struct contact_step *step, const struct scene *scene,
+                           const struct contact_start *start)
+{
+    size_t rows = scene_rows(scene);
+    double changed = 0.0;
+    for (size_t i = 0; i < scene->frictions; i++) {
+        size_t row = scene_tangent(scene, i);
+        double limit = scene->friction[i].coefficient * step->end_force[scene->friction[i].contact];
+        double before[2] = {step->end_force[row], step->end_force[row + 1]};
+        double stiffness[2];
+        const struct friction_way way = way_of(step, scene, i, start);
+        friction_step_end(&step->friction, i, &way, step->end_force[scene->friction[i].contact],
+                          step->end_force + row, stiffness);
+        for (int j = 0; j < 2; j++) {
+            double own = scene->residual[(row + (size_t)j) * (rows + 1)];
+            double *d = &step->end_indentation[row + (size_t)j];
+            double excess = *d + own * step->end_force[row + (size_t)j] -
+                            less_residual(step, scene, row + (size_t)j);
+            *d -= excess / (1.0 + own * stiffness[j]);
+            double change = fabs(step->end_force[row + (size_t)j] - before[j]);
+            changed = larger(changed, change > 0.0 ? change / limit : 0.0);
+        }
+    }
+    return changed;
+}
+
+/* Solves the step's end, as exactly as the nodes. */
+static bool end_with_friction(struct contact_step *step, const struct scene *scene,
+                              const struct contact_start *start, double last)
+{
+    size_t n = scene->contacts;
+    double approach[PERCUSS_MAX_CONTACTS];
+    memcpy(approach, step->approach, n * sizeof *approach);
+    for (size_t row = n; row < scene_rows(scene); row++)
+        step->end_force[row] = collocation_last(step->force[row]);
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        for (size_t c = 0; c < n; c++)
+            step->approach[c] = approach[c];
+        for (size_t c = 0; c < n; c++)
+            step->approach[c] = less_residual(step, scene, c);
+        if (!find_end(step, scene))
+            return false;
+        if (!(end_tangents(step, scene, start) > last) && round > 0)
+            return true;
+    }
+    return false;
+}
+
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
@@ -335,7 +494,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     }
     /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
-    predict_all(step, scene->contacts, start, level);
+    predict_all(step, scene_rows(scene), start, level);
     /* forces and indentations at the nodes */
     const struct node_problem problem = {
         .scene = scene,
@@ -345,12 +504,18 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .taken = step->taken,
         .last_change = step->last_change,
     };
-    if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations)) {
-        enum contact_step_end end = solve_together(step, &problem, start);
-        if (end != STEP_SOLVED)
-            return end;
-    }
+    double last = step->last_change * step->last_change; /* of a linear iteration: as exact */
+    enum contact_step_end end = scene->frictions ? solve_with_friction(step, &problem, start, last)
+                                                 : solve_normals(step, &problem, start);
+    if (end != STEP_SOLVED)
+        return end;
     if (step->midpoint.damped)
         step->loss = contact_step_loss(scene, motion, level, step->force);
-    return find_end(step, scene, level) ? STEP_SOLVED : STEP_UNSOLVED;
+    /* and at the end, from the cubics' values */
+    find_approaches(step, scene, level);
+    for (size_t c = 0; c < scene_rows(scene); c++)
+        step->end_indentation[c] = collocation_last(step->indentation[c]);
+    bool ends =
+        scene->frictions ? end_with_friction(step, scene, start, last) : find_end(step, scene);
+    return ends ? STEP_SOLVED : STEP_UNSOLVED;
 }

@@ -10,13 +10,14 @@
 
 #include "base/watch.h"
 #include "impact/coupling.h"
+#include "impact/friction_step.h"
 #include "impact/midpoint.h"
 
 struct contact_step {
-    double (*indentation)[NODES]; /* [contact] local, at the nodes */
+    double (*indentation)[NODES]; /* [row] local, at the nodes */
     double (*force)[NODES];
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
-    double *end_indentation;    /* [contact] */
+    double *end_indentation;    /* [row] */
     double loss;                /* energy lost to damping, J */
     unsigned long iterations;   /* Newton's, since creation */
     double last_change;         /* relative, see node_solver.h */
@@ -28,6 +29,8 @@ struct contact_step {
     double *matrix;                /* contacts^2 */
     double *together;              /* (contacts NODES)^2; NULL before a solution of all at once */
     double *approach, *end_force;
+    double (*before)[NODES]; /* with friction: forces of the round before */
+    struct friction_step friction;
     struct arena *arena;
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): none */
 };
@@ -37,7 +40,7 @@ struct contact_step {
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena);
 
-/* Local values of a contact at the start of a step: starting values of the iteration. */
+/* Local values of a row at the start of a step: starting values of the iteration. */
 struct contact_start {
     double indentation; /* m */
     double rate;        /* m/s */
@@ -52,7 +55,7 @@ enum contact_step_end {
     STEP_MEMORY    /* out of memory */
 };
 
-/* Solves a step of a level from `motion`, which is not changed; `start` by contact. From the first
+/* Solves a step of a level from `motion`, which is not changed; `start` by row. From the first
  * call on `step` holds the undamped modes, until contact_step_leave. */
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,

@@ -20,7 +20,7 @@ static bool share_modes(const struct scene *scene, size_t a, size_t b)
 /* Finds the coupled pairs. */
 static void find_pairs(struct coupling *coupling, const struct scene *scene)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     size_t count = 0;
     for (size_t a = 0; a < n; a++) {
         coupling->first[a] = count;
@@ -40,7 +40,7 @@ static void find_pairs(struct coupling *coupling, const struct scene *scene)
 
 bool coupling_create(struct coupling *coupling, const struct scene *scene, struct arena *arena)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     size_t longest = 0;
     *coupling = (struct coupling){.by_modes = n > COUPLING_FEW};
     coupling->first = arena_reserve(arena, n + 1, sizeof *coupling->first);
@@ -74,7 +74,7 @@ static void rigid_block(double w, double residual, double h, double by[STEP_POIN
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES])
 {
-    size_t at = a * scene->contacts + b;
+    size_t at = a * scene_rows(scene) + b;
     rigid_block(scene->w[at], scene->residual[at], step_length(level), by);
     /* the modes that move both */
     for (size_t g = 0; g < scene->groups; g++) {
@@ -114,7 +114,7 @@ enum percuss_status coupling_prepare(struct coupling *coupling, const struct sce
     struct coupling_block *blocks = arena_reserve(arena, coupling->blocks, sizeof *blocks);
     if (!blocks)
         return PERCUSS_INTERNAL;
-    for (size_t a = 0; a < scene->contacts; a++) {
+    for (size_t a = 0; a < scene_rows(scene); a++) {
         size_t own = coupling->own[a];
         coupling_between(scene, level, a, a, blocks[own].by);
         /* W, the residual flexibility and the modes' products are symmetric */
@@ -146,14 +146,13 @@ static inline void multiply(const double *m, const double force[NODES], quad *no
     *end += (last[0] + last[1]) + (last[2] + last[3]);
 }
 
-VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t contacts,
-                                         int level, double (*const force)[NODES],
-                                         double (*taken)[STEP_POINTS])
+VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t rows, int level,
+                                         double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
     bool bears[COUPLING_FEW];
-    for (size_t c = 0; c < contacts; c++)
+    for (size_t c = 0; c < rows; c++)
         bears[c] = motion_bears(force[c]);
-    for (size_t a = 0; a < contacts; a++) {
+    for (size_t a = 0; a < rows; a++) {
         quad nodes = {0};
         double end = 0.0;
         for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++) {
@@ -167,10 +166,10 @@ VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t
 }
 
 /* Effect of rigid bodies and residual flexibility, pair by pair. */
-VECTOR_CLONES static void take_rigid(const struct coupling *coupling, size_t contacts, double h,
+VECTOR_CLONES static void take_rigid(const struct coupling *coupling, size_t rows, double h,
                                      double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
-    for (size_t a = 0; a < contacts; a++) {
+    for (size_t a = 0; a < rows; a++) {
         quad thrust = {0};
         quad local = {0};
         double end = 0.0;
@@ -232,7 +231,7 @@ static void take_by_modes(const struct coupling *coupling, const struct scene *s
 {
     bool moved = false;
     memset(coupling->thrust, 0, group->stride * NODES * sizeof(double));
-    for (size_t b = 0; b < scene->contacts; b++)
+    for (size_t b = 0; b < scene_rows(scene); b++)
         if (group->participation[b] && motion_bears(force[b])) {
             gather(group->stride, group->participation[b], force[b], coupling->thrust);
             moved = true;
@@ -240,7 +239,7 @@ static void take_by_modes(const struct coupling *coupling, const struct scene *s
     if (!moved)
         return;
     respond(group->set->tables[level]->response, group->stride, coupling->thrust, coupling->answer);
-    for (size_t a = 0; a < scene->contacts; a++)
+    for (size_t a = 0; a < scene_rows(scene); a++)
         if (group->participation[a])
             scatter(group->stride, group->participation[a], coupling->answer, taken[a]);
 }
@@ -249,21 +248,21 @@ void coupling_take(const struct coupling *coupling, const struct scene *scene, i
                    double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
     if (!coupling->by_modes) {
-        take_by_blocks(coupling, scene->contacts, level, force, taken);
+        take_by_blocks(coupling, scene_rows(scene), level, force, taken);
         return;
     }
-    take_rigid(coupling, scene->contacts, step_length(level), force, taken);
+    take_rigid(coupling, scene_rows(scene), step_length(level), force, taken);
     for (size_t g = 0; g < scene->groups; g++)
         take_by_modes(coupling, scene, &scene->group[g], level, force, taken);
 }
 
 /* Only the rows of the end. */
-static void end_by_blocks(const struct coupling *coupling, size_t contacts, int level,
+static void end_by_blocks(const struct coupling *coupling, size_t rows, int level,
                           double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
-    for (size_t a = 0; a < contacts; a++)
+    for (size_t a = 0; a < rows; a++)
         taken[a][NODES] = 0.0;
-    for (size_t a = 0; a < contacts; a++)
+    for (size_t a = 0; a < rows; a++)
         for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++) {
             const double *m = coupling->level[level][p].by[NODES];
             const double *f = force[coupling->pairs[p].other];
@@ -277,5 +276,5 @@ void coupling_take_end(const struct coupling *coupling, const struct scene *scen
     if (coupling->by_modes)
         coupling_take(coupling, scene, level, force, taken);
     else
-        end_by_blocks(coupling, scene->contacts, level, force, taken);
+        end_by_blocks(coupling, scene_rows(scene), level, force, taken);
 }

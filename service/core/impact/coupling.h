@@ -1,10 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Effects of the contacts' forces on a step on each other's approaches: through the rigid bodies,
+/* Effects of the rows' forces on a step on each other's approaches: through the rigid bodies,
  * the residual flexibility and the modes. Only pairs that share one of these are computed. Few
- * contacts have a block for each pair. With many, the forces move the modes and these the contacts,
- * so that one more contact costs its modes, not a block for each other contact. */
+ * contacts have a block for each pair. With many, the forces move the modes and these the rows,
+ * so that one more row costs its modes, not a block for each other row. */
 #ifndef PERCUSS_IMPACT_COUPLING_H
 #define PERCUSS_IMPACT_COUPLING_H
 

@@ -24,7 +24,7 @@ static double form(size_t n, const double *m, const double *x, const double *y)
 /* 1/w for one contact, else the pseudo-inverse: motions that change no gap carry no energy. */
 static double *effective_mass(const struct scene *scene, struct arena *arena)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     double *mass = arena_take(arena, n * n, sizeof *mass);
     if (!mass)
         return NULL;
@@ -45,8 +45,8 @@ static const double NOT_DRIVEN = 1e-6;
 static void find_driven(const struct scene *scene, const double *mass, const double *x,
                         double *driven)
 {
-    size_t n = scene->contacts;
-    double momentum[PERCUSS_MAX_CONTACTS] = {0.0};
+    size_t n = scene_rows(scene);
+    double momentum[SCENE_MOST_ROWS] = {0.0};
     double largest = 0.0;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++)
@@ -67,15 +67,19 @@ static void find_driven(const struct scene *scene, const double *mass, const dou
 static double driven_work(const struct scene *scene, const double *mass,
                           const struct impact_outcome *outcome)
 {
-    double rate[PERCUSS_MAX_CONTACTS];
-    double acceleration[PERCUSS_MAX_CONTACTS];
+    double rate[SCENE_MOST_ROWS];
+    double acceleration[SCENE_MOST_ROWS];
     double sum = 0.0;
-    if (scene->contacts == 1)
+    if (scene_rows(scene) == 1)
         return 0.0;
     find_driven(scene, mass, scene->gap_rate, rate);
     find_driven(scene, mass, scene->gap_acceleration, acceleration);
     for (size_t c = 0; c < scene->contacts; c++)
         sum -= rate[c] * outcome->tracks[c].impulse + acceleration[c] * outcome->tracks[c].moment;
+    for (size_t i = 0; i < scene->frictions; i++)
+        for (size_t t = 0; t < 2; t++)
+            sum -= rate[scene_tangent(scene, i) + t] *
+                   outcome->tracks[scene->friction[i].contact].tangential[t];
     return sum;
 }
 
@@ -93,24 +97,26 @@ static double initial_vibration(const struct scene *scene)
 }
 
 static double stored_energy(const struct scene *scene, const struct contact_law *laws,
-                            const double *indentation)
+                            const struct energy_end *last)
 {
-    double force[PERCUSS_MAX_CONTACTS];
+    double force[SCENE_MOST_ROWS];
     double sum = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
         const struct contact_law *law = &laws[c];
         double stiffness;
-        force[c] = contact_law_force(law, indentation[c], &stiffness);
-        sum += law->operations->stored(law, indentation[c]);
+        force[c] = contact_law_force(law, last->indentation[c], &stiffness);
+        sum += law->operations->stored(law, last->indentation[c]);
     }
-    return sum + 0.5 * form(scene->contacts, scene->residual, force, force);
+    for (size_t i = 0; i < 2 * scene->frictions; i++)
+        force[scene->contacts + i] = last->tangential[i];
+    return sum + 0.5 * form(scene_rows(scene), scene->residual, force, force);
 }
 
 /* Work of the acceleration over the rounding of both gaps of a contact, half a bit each. */
 static double rounding_of_work(const struct scene *scene, const double *mass,
                                const struct motion *end)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     double sum = 0.0;
     for (size_t a = 0; a < n; a++) {
         double force = 0.0;
@@ -124,22 +130,25 @@ static double rounding_of_work(const struct scene *scene, const double *mass,
 /* Relative, of the available energy's terms. */
 static const double ROUNDING_OF_SUM = 32.0 * DBL_EPSILON;
 
-bool energy_audit(const struct scene *scene, const double *indentation, double damping,
-                  struct arena *arena, struct impact_outcome *outcome)
+bool energy_audit(const struct scene *scene, const struct energy_end *last, struct arena *arena,
+                  struct impact_outcome *outcome)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     const struct motion *end = &outcome->motion;
     double *mass = effective_mass(scene, arena);
     double *travel = arena_take(arena, n, sizeof *travel);
     if (!mass || !travel)
         return false;
     /* travel of the bodies: the gap's change less the dent's */
-    for (size_t c = 0; c < n; c++)
+    for (size_t r = 0; r < n; r++)
+        travel[r] = end->gap[r] - scene->gap[r];
+    for (size_t c = 0; c < scene->contacts; c++)
         travel[c] = end->gap[c] - scene->gap[c] -
                     (outcome->laws[c].history.dent - scene->laws[c].history.dent);
 
     struct impact_energy *energy = &outcome->energy;
-    *energy = (struct impact_energy){.damping = damping, .plastic = outcome->plastic};
+    *energy = (struct impact_energy){
+        .damping = last->damping, .plastic = outcome->plastic, .friction = outcome->slid};
     /* the acceleration is a force W^+ a, which works over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
                         initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel) +
@@ -150,9 +159,9 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
         outcome->vibration[b] = motion_vibration(end, scene, b);
         energy->vibration += outcome->vibration[b];
     }
-    energy->stored = stored_energy(scene, outcome->laws, indentation);
+    energy->stored = stored_energy(scene, outcome->laws, last) + outcome->sheared;
     energy->closure = energy->available - energy->rigid_after - energy->vibration -
-                      energy->damping - energy->plastic - energy->stored;
+                      energy->damping - energy->plastic - energy->friction - energy->stored;
     /* a gap far larger than its travel rounds it: no error */
     double rounding = rounding_of_work(scene, mass, end);
     if (fabs(energy->closure) <= rounding)

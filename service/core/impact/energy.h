@@ -7,10 +7,17 @@
 
 #include "impact/impact.h"
 
+/* The end of a march. */
+struct energy_end {
+    const double
+        *indentation; /* [contact], local, of those that are still closed; 0 of the others */
+    const double *tangential; /* [2 frictions]: forces of the tangents, N; NULL: without friction */
+    double damping;           /* lost so far, J */
+};
+
 /* Fills outcome->energy and ->vibration from the scene, the final motion and laws, and the
- * dissipated energy. `indentation` holds the local indentation of the contacts that are still
- * closed, 0 of the others. False: out of memory. */
-bool energy_audit(const struct scene *scene, const double *indentation, double damping,
-                  struct arena *arena, struct impact_outcome *outcome);
+ * dissipated energy. False: out of memory. */
+bool energy_audit(const struct scene *scene, const struct energy_end *last, struct arena *arena,
+                  struct impact_outcome *outcome);
 
 #endif

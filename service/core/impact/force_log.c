@@ -7,9 +7,9 @@
 
 enum { FIRST_ROOM = 256 };
 
-struct force_log force_log_make(struct arena *arena, size_t contacts)
+struct force_log force_log_make(struct arena *arena, size_t rows)
 {
-    return (struct force_log){.arena = arena, .contacts = contacts, .complete = true};
+    return (struct force_log){.arena = arena, .rows = rows, .complete = true};
 }
 
 /* The arena frees nothing: doubling wastes as much as is in use. */
@@ -18,7 +18,7 @@ static bool grow(struct force_log *log)
     size_t room = log->room ? 2 * log->room : FIRST_ROOM;
     struct force_step *steps = arena_reserve(log->arena, room, sizeof *steps);
     double(*values)[NODES] =
-        arena_reserve(log->arena, 2 * log->contacts * (room - log->count), sizeof *values);
+        arena_reserve(log->arena, 2 * log->rows * (room - log->count), sizeof *values);
     if (!steps || !values)
         return false;
     if (log->count > 0)
@@ -32,7 +32,7 @@ static bool grow(struct force_log *log)
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],
                    double (*const indentation)[NODES])
 {
-    size_t n = log->contacts;
+    size_t n = log->rows;
     struct force_step step = {.start = start, .level = level};
     log->complete = log->complete && !(log->most > 0 && log->count == log->most) &&
                     (log->count < log->room || grow(log));

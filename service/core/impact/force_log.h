@@ -16,13 +16,13 @@
 struct force_step {
     double start;                 /* s from the stated instant */
     int level;                    /* its length, see step_length */
-    double (*force)[NODES];       /* [contact], N */
-    double (*indentation)[NODES]; /* [contact], m; <= 0: open */
+    double (*force)[NODES];       /* [row], N */
+    double (*indentation)[NODES]; /* [row], m; of a contact <= 0: open */
 };
 
 struct force_log {
     struct arena *arena; /* holds everything */
-    size_t contacts;
+    size_t rows;
     struct force_step *steps;
     double (*values)[NODES]; /* room for forces and indentations to come */
     size_t count, room;
@@ -30,8 +30,8 @@ struct force_log {
     bool complete; /* false: out of memory, or more steps */
 };
 
-/* An empty log of so many contacts. */
-struct force_log force_log_make(struct arena *arena, size_t contacts);
+/* An empty log of so many rows. */
+struct force_log force_log_make(struct arena *arena, size_t rows);
 
 /* Copies a step's values. */
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],

@@ -24,7 +24,7 @@ enum { MASS_ROUNDS = 3 };
  * it. On a long rod that is the wave impedance times the duration, far less than the rod's mass. */
 static double felt_inverse_mass(const struct scene *scene, size_t contact, double duration)
 {
-    double sum = scene->w[contact * scene->contacts + contact];
+    double sum = scene->w[contact * (scene_rows(scene) + 1)];
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *phi = group->participation[contact];
@@ -79,10 +79,10 @@ struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, d
     return scale;
 }
 
-/* Whether contacts a and b are coupled. */
+/* Whether rows a and b are coupled. */
 static bool feels(const struct scene *scene, size_t a, size_t b)
 {
-    size_t at = a * scene->contacts + b;
+    size_t at = a * scene_rows(scene) + b;
     if (scene->w[at] != 0.0 || scene->residual[at] != 0.0)
         return true;
     for (size_t g = 0; g < scene->groups; g++)
@@ -95,11 +95,12 @@ static bool feels(const struct scene *scene, size_t a, size_t b)
  * row of spheres each feels two others, on a beam all. One by one they cost far less. */
 double step_cost(const struct scene *scene)
 {
-    double n = (double)scene->contacts;
+    size_t rows = scene_rows(scene);
+    double n = (double)rows;
     double cost = 2.0 * n * n + 6.0 * n;
-    for (size_t a = 0; a < scene->contacts; a++) {
+    for (size_t a = 0; a < rows; a++) {
         double felt = 0.0;
-        for (size_t b = 0; b < scene->contacts; b++)
+        for (size_t b = 0; b < rows; b++)
             felt += feels(scene, a, b);
         cost += 8.0 * felt * felt;
     }

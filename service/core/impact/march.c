@@ -19,22 +19,35 @@ bool march_create(struct march *march, struct arena *arena)
     motion_start(&march->outcome->motion, scene);
     march->closed = arena_take(arena, scene->contacts, sizeof *march->closed);
     march->indentation = arena_take(arena, scene->contacts, sizeof *march->indentation);
-    if (!march->closed || !march->indentation || !flight_create(&march->flight, scene, arena))
+    march->tangential = arena_take(arena, 2 * scene->frictions + 1, sizeof *march->tangential);
+    if (!march->closed || !march->indentation || !march->tangential ||
+        !flight_create(&march->flight, scene, arena))
         return false;
     march->cost = march->flight.cost = step_cost(scene);
     march->flight.pace = march->pace;
     return true;
 }
 
+/* Of the rigid bodies, at a contact with friction. */
+static void find_slip(const struct march *march, size_t contact, double slip[2])
+{
+    const struct scene *scene = &march->scene;
+    size_t friction = scene_friction_of(scene, contact);
+    for (size_t t = 0; friction < scene->frictions && t < 2; t++)
+        slip[t] = march->outcome->motion.gap_rate[scene_tangent(scene, friction) + t];
+}
+
 void march_open(struct march *march, size_t contact, double time, double gap_rate)
 {
     march->closed[contact] = true;
     track_open(&march->outcome->tracks[contact], time, gap_rate);
+    find_slip(march, contact, march->outcome->tracks[contact].open.slip_before);
 }
 
 void march_close(struct march *march, size_t contact, double time, double gap_rate)
 {
     march->closed[contact] = false;
+    find_slip(march, contact, march->outcome->tracks[contact].open.slip_after);
     track_close(&march->outcome->tracks[contact], &march->scene.laws[contact], time, gap_rate);
 }
 
@@ -50,7 +63,7 @@ double march_unknown_rate(const struct march *march, size_t contact)
     double changed = 0.0;
     double fastest = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
-        double w = scene->w[contact * scene->contacts + c];
+        double w = scene->w[contact * scene_rows(scene) + c];
         changed += fabs(w) * march->outcome->tracks[c].impulse;
         double speed = fabs(scene->gap_rate[c]);
         fastest = speed > fastest ? speed : fastest;
@@ -153,7 +166,8 @@ static enum percuss_status finish(struct march *march, struct arena *arena)
     outcome->effort = march->used;
     if (outcome->time_shift == 0.0)
         outcome->time_shift = first_touch(march);
-    if (!energy_audit(march->stated, march->indentation, march->damping, arena, outcome))
+    const struct energy_end end = {march->indentation, march->tangential, march->damping};
+    if (!energy_audit(march->stated, &end, arena, outcome))
         return pace_fault(march->fault, PERCUSS_INTERNAL);
     return pace_status(march->pace);
 }

@@ -28,6 +28,7 @@ struct march {
     double damping;             /* taken so far, J */
     bool *closed;               /* [contact]: a sub-impact is under way */
     double *indentation;        /* [contact], local, when the window ends */
+    double *tangential;         /* [2 frictions], forces of the tangents then, N */
     struct flight flight;
 };
 

@@ -14,14 +14,14 @@ struct midpoint {
     bool damped;     /* some mode is damped */
     bool nodes_only; /* the sums at the ends of the steps may be omitted */
     int level;       /* of that step; < 0: the motion holds all modes */
-    /* [contact]: of that step if it was taken, not applied yet; NULL: it was not taken */
+    /* [row]: of that step if it was taken, not applied yet; NULL: it was not taken */
     const double (*force)[NODES];
 };
 
 /* Memory for a scene from the arena. False: out of memory. */
 bool midpoint_create(struct midpoint *midpoint, const struct scene *scene, struct arena *arena);
 
-/* Moves the modes from the present to a step of `level`, which has tables: sums[contact] becomes
+/* Moves the modes from the present to a step of `level`, which has tables: sums[row] becomes
  * the modes' part of minus the approach at the nodes and the end if no force acts. */
 void midpoint_enter(struct midpoint *midpoint, const struct scene *scene,
                     const struct motion *motion, int level, double (*sums)[STEP_POINTS]);

@@ -12,11 +12,11 @@
 bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena)
 {
     /* pairs of arrays, one behind the other */
-    motion->gap = arena_take(arena, 2 * scene->contacts, sizeof *motion->gap);
+    motion->gap = arena_take(arena, 2 * scene_rows(scene), sizeof *motion->gap);
     motion->q = arena_reserve(arena, 2 * scene->groups, sizeof *motion->q);
     if (!motion->gap || !motion->q)
         return false;
-    motion->gap_rate = motion->gap + scene->contacts;
+    motion->gap_rate = motion->gap + scene_rows(scene);
     motion->v = motion->q + scene->groups;
     for (size_t g = 0; g < scene->groups; g++) {
         size_t stride = scene->group[g].stride; /* whole lanes: both are aligned */
@@ -39,8 +39,8 @@ static void copy_or_clear(double *to, const double *from, size_t count)
 void motion_start(struct motion *motion, const struct scene *scene)
 {
     motion->time = 0.0;
-    copy_or_clear(motion->gap, scene->gap, scene->contacts);
-    copy_or_clear(motion->gap_rate, scene->gap_rate, scene->contacts);
+    copy_or_clear(motion->gap, scene->gap, scene_rows(scene));
+    copy_or_clear(motion->gap_rate, scene->gap_rate, scene_rows(scene));
     for (size_t g = 0; g < scene->groups; g++) {
         copy_or_clear(motion->q[g], scene->group[g].q, scene->group[g].stride);
         copy_or_clear(motion->v[g], scene->group[g].v, scene->group[g].stride);
@@ -50,8 +50,8 @@ void motion_start(struct motion *motion, const struct scene *scene)
 void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene)
 {
     to->time = from->time;
-    copy_or_clear(to->gap, from->gap, scene->contacts);
-    copy_or_clear(to->gap_rate, from->gap_rate, scene->contacts);
+    copy_or_clear(to->gap, from->gap, scene_rows(scene));
+    copy_or_clear(to->gap_rate, from->gap_rate, scene_rows(scene));
     for (size_t g = 0; g < scene->groups; g++) {
         copy_or_clear(to->q[g], from->q[g], scene->group[g].stride);
         copy_or_clear(to->v[g], from->v[g], scene->group[g].stride);
@@ -74,7 +74,7 @@ static bool turns_at_once(const struct scene_group *group, double time)
 static void move_gaps(struct motion *motion, const struct scene *scene, double time)
 {
     motion->time += time;
-    for (size_t c = 0; c < scene->contacts; c++) {
+    for (size_t c = 0; c < scene_rows(scene); c++) {
         double a = scene->gap_acceleration[c];
         motion->gap[c] += time * (motion->gap_rate[c] + 0.5 * a * time);
         motion->gap_rate[c] += a * time;
@@ -157,7 +157,7 @@ void motion_step_gaps(struct motion *to, const struct motion *from, const struct
 {
     double h = step_length(level);
     to->time = from->time + h;
-    for (size_t c = 0; c < scene->contacts; c++) {
+    for (size_t c = 0; c < scene_rows(scene); c++) {
         double a = scene->gap_acceleration[c];
         to->gap[c] = from->gap[c] + h * (from->gap_rate[c] + 0.5 * a * h);
         to->gap_rate[c] = from->gap_rate[c] + a * h;
@@ -172,23 +172,23 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
                        from->v[g], to->q[g], to->v[g]);
 }
 
-void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
+void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t row,
                       const double force[NODES])
 {
     double impulse;
     double travel;
     motion_integrate(force, step_length(level), &impulse, &travel);
-    const double *w = scene->w + contact * scene->contacts; /* symmetric */
-    for (size_t a = 0; a < scene->contacts; a++)
+    const double *w = scene->w + row * scene_rows(scene); /* symmetric */
+    for (size_t a = 0; a < scene_rows(scene); a++)
         end->gap[a] += w[a] * travel;
-    for (size_t a = 0; a < scene->contacts; a++)
+    for (size_t a = 0; a < scene_rows(scene); a++)
         end->gap_rate[a] += w[a] * impulse;
 }
 
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES])
 {
-    for (size_t b = 0; b < scene->contacts; b++) {
+    for (size_t b = 0; b < scene_rows(scene); b++) {
         if (!motion_bears(force[b]))
             continue;
         motion_push_gaps(end, scene, level, b, force[b]);
@@ -201,7 +201,7 @@ void motion_push(struct motion *end, const struct scene *scene, int level,
     }
 }
 
-void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
+void motion_approach(const struct motion *motion, const struct scene *scene, size_t row,
                      double *approach, double *rate)
 {
     double d = 0.0;
@@ -210,18 +210,18 @@ void motion_approach(const struct motion *motion, const struct scene *scene, siz
         const struct scene_group *group = &scene->group[g];
         double part;
         double part_rate;
-        if (!group->participation[contact])
+        if (!group->participation[row])
             continue;
-        kernel_dot2(group->stride, group->participation[contact], motion->q[g], motion->v[g], &part,
+        kernel_dot2(group->stride, group->participation[row], motion->q[g], motion->v[g], &part,
                     &part_rate);
         d += part;
         d_rate += part_rate;
     }
-    *approach = -motion->gap[contact] - d;
-    *rate = -motion->gap_rate[contact] - d_rate;
+    *approach = -motion->gap[row] - d;
+    *rate = -motion->gap_rate[row] - d_rate;
 }
 
-void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t contact,
+void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t row,
                         double time, double *approach, double *rate)
 {
     double d = 0.0;
@@ -229,7 +229,7 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
     /* the modes at that instant */
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        const double *phi = group->participation[contact];
+        const double *phi = group->participation[row];
         for (size_t k = 0; phi && k < group->count; k++) {
             double q = motion->q[g][k];
             double v = motion->v[g][k];
@@ -241,9 +241,9 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
         }
     }
     /* with the rigid gap */
-    double a = scene->gap_acceleration[contact];
-    *approach = -(motion->gap[contact] + time * (motion->gap_rate[contact] + 0.5 * a * time)) - d;
-    *rate = -(motion->gap_rate[contact] + a * time) - d_rate;
+    double a = scene->gap_acceleration[row];
+    *approach = -(motion->gap[row] + time * (motion->gap_rate[row] + 0.5 * a * time)) - d;
+    *rate = -(motion->gap_rate[row] + a * time) - d_rate;
 }
 
 double motion_vibration(const struct motion *motion, const struct scene *scene, size_t body)

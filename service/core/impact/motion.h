@@ -13,7 +13,7 @@
 
 struct motion {
     double time; /* s from the stated instant */
-    double *gap; /* [contact], rigid */
+    double *gap; /* [row], rigid */
     double *gap_rate;
     double **q, **v; /* [group][stride] */
 };
@@ -53,7 +53,7 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES]);
 
-/* Whether a contact bears a force at any node: many of a group are open most of the time. */
+/* Whether a row bears a force at any node: many of a group are open most of the time. */
 static inline bool motion_bears(const double force[NODES])
 {
     return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
@@ -76,16 +76,16 @@ static inline void motion_integrate(const double force[NODES], double h, double 
 /* The rigid part of motion_step (with the time) and of motion_push. */
 void motion_step_gaps(struct motion *to, const struct motion *from, const struct scene *scene,
                       int level);
-void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
+void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t row,
                       const double force[NODES]);
 
-/* d and its rate at one contact. */
-void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
+/* d and its rate of one row. */
+void motion_approach(const struct motion *motion, const struct scene *scene, size_t row,
                      double *approach, double *rate);
 
 /* The same after a free motion over `time`, or a rewind where it is negative, without touching the
  * state. */
-void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t contact,
+void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t row,
                         double time, double *approach, double *rate);
 
 /* Vibration energy of one body, J. */

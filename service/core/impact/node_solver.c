@@ -229,7 +229,7 @@ static bool solve_apart(const struct node_problem *problem, double (*d)[NODES],
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
-    if (problem->scene->contacts == 1)
+    if (scene_rows(problem->scene) == 1)
         return solve_one(problem, indentation[0], force[0], stiffness[0], iterations);
     return solve_apart(problem, indentation, force, stiffness, iterations);
 }
@@ -269,7 +269,7 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
                          double (*change)[NODES])
 {
     size_t n = problem->scene->contacts;
-    double thrust[PERCUSS_MAX_CONTACTS][NODES] = {{0}};
+    double thrust[SCENE_MOST_ROWS][NODES] = {{0}};
     system->count = 0;
     for (size_t c = 0; c < n; c++)
         if (presses(force[c], stiffness[c]))

@@ -20,8 +20,8 @@ struct node_problem {
     const struct scene *scene;
     const struct coupling *coupling; /* prepared for the level */
     int level;
-    const double (*target)[STEP_POINTS]; /* [contact]: approaches without force, the nodes' */
-    double (*taken)[STEP_POINTS];        /* [contact]: scratch */
+    const double (*target)[STEP_POINTS]; /* [row]: approaches without force, the nodes' */
+    double (*taken)[STEP_POINTS];        /* [row]: scratch */
     double last_change; /* the iteration ends with a relative change of the indentations below */
 };
 
@@ -37,8 +37,9 @@ static inline double node_solver_last_change(double accuracy)
     return change > SMALLEST ? change : SMALLEST;
 }
 
-/* [contact][node]: `indentation` holds starting values and becomes the solution, `force` belongs to
- * it, `stiffness` to the values before its last change. False: no convergence with contacts taken
+/* [row][node], of the contacts' normals: `indentation` holds starting values and becomes the
+ * solution, `force` belongs to it, `stiffness` to the values before its last change. The forces of
+ * tangents are given. False: no convergence with contacts taken
  * one by one; the values are then invalid. Adds to *iterations. */
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations);

@@ -36,7 +36,7 @@ static bool stays_elastic(const struct scene *scene)
 
 bool impact_is_rigid_pair(const struct scene *scene)
 {
-    return scene->contacts == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
+    return scene_rows(scene) == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 && stays_elastic(scene);
 }
 
@@ -109,7 +109,6 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     double w = scene->w[0];
     double energy = 0.5 * speed * speed / w;
     double touch = scene->gap[0] / speed;
-    double closed = 0.0;
     /* the bodies separate at the speed of their approach */
     impact_begin(outcome, scene);
     motion_start(&outcome->motion, scene);
@@ -138,5 +137,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     outcome->motion.gap[0] = 0.0;
     outcome->motion.gap_rate[0] = speed;
     outcome->motion.time = outcome->window = touch + 2.0 * half;
-    return energy_audit(scene, &closed, 0.0, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
+    static const double open_at_end = 0.0;
+    const struct energy_end end = {&open_at_end, NULL, 0.0};
+    return energy_audit(scene, &end, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }

@@ -8,6 +8,11 @@
  *   modes      q'' + 2 zeta omega q' + omega^2 q = sum_c participation_c F_c
  *   approach   d = -g - sum participation q                   (> 0: overlap but for indentation)
  *   law        F_i = law_i(d_i - sum_j residual_ij F_j)
+ *
+ * A row is a direction in which the bodies of a contact push each other: the normals of all
+ * contacts first, then two tangents of each contact with friction. All equations but the law are
+ * the same for both: of a tangent g is the displacement of body a's surface against b's, F the
+ * force on a along it, and d < 0 its displacement. The tangential law is contact/friction.h.
  */
 #ifndef PERCUSS_IMPACT_SCENE_H
 #define PERCUSS_IMPACT_SCENE_H
@@ -22,20 +27,51 @@ struct scene_group {
     struct oscillators *set;      /* borrowed; at least `count` oscillators */
     size_t count, stride;         /* the first `count` take part */
     size_t body;                  /* index, for the energy's split */
-    const double **participation; /* [contact]: stride numbers, or NULL where all are zero */
+    const double **participation; /* [row]: stride numbers, or NULL where all are zero */
     const double *q, *v;          /* stride numbers at the stated instant; NULL: at rest */
+};
+
+/* Friction of a contact. */
+struct scene_friction {
+    size_t contact;
+    double coefficient; /* > 0 */
+    double ratio[3];    /* tangential over normal stiffness, a tensor xx, xy, yy of its tangents */
 };
 
 struct scene {
     size_t contacts, groups, bodies;
-    const double *w;                /* contacts^2, 1/kg */
-    const double *residual;         /* contacts^2, residual flexibility, m/N */
-    const double *gap;              /* rigid, m */
-    const double *gap_rate;         /* rigid, m/s */
-    const double *gap_acceleration; /* rigid, m/s^2 */
-    const struct contact_law *laws; /* [contact] */
-    struct scene_group *group;      /* [groups] */
+    size_t frictions;                      /* contacts with friction */
+    const double *w;                       /* rows^2, 1/kg */
+    const double *residual;                /* rows^2, residual flexibility, m/N */
+    const double *gap;                     /* [row], rigid, m */
+    const double *gap_rate;                /* [row], rigid, m/s */
+    const double *gap_acceleration;        /* [row], rigid, m/s^2 */
+    const struct contact_law *laws;        /* [contact] */
+    const struct scene_friction *friction; /* [frictions], ascending contacts */
+    struct scene_group *group;             /* [groups] */
 };
+
+enum { SCENE_MOST_ROWS = 3 * PERCUSS_MAX_CONTACTS };
+
+/* All rows; those of friction[i] are scene_tangent(scene, i) and the next. */
+static inline size_t scene_rows(const struct scene *scene)
+{
+    return scene->contacts + 2 * scene->frictions;
+}
+
+static inline size_t scene_tangent(const struct scene *scene, size_t friction)
+{
+    return scene->contacts + 2 * friction;
+}
+
+/* The number of a contact's friction; scene->frictions: it has none. */
+static inline size_t scene_friction_of(const struct scene *scene, size_t contact)
+{
+    size_t i = 0;
+    while (i < scene->frictions && scene->friction[i].contact != contact)
+        i++;
+    return i;
+}
 
 /* Makes sure that the groups' tables of a level hold the oscillators that take part. OK, INTERNAL
  * without memory, or TIMEOUT where the pace stopped it. */

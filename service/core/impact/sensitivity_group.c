@@ -104,12 +104,12 @@ static double impulse_of(const double force[NODES], double h)
 static double largest_impulse(const struct force_log *log, double *sum)
 {
     double largest = 0.0;
-    for (size_t c = 0; c < log->contacts; c++)
+    for (size_t c = 0; c < log->rows; c++)
         sum[c] = 0.0;
     for (size_t i = 0; i < log->count; i++)
-        for (size_t c = 0; c < log->contacts; c++)
+        for (size_t c = 0; c < log->rows; c++)
             sum[c] += impulse_of(log->steps[i].force[c], step_length(log->steps[i].level));
-    for (size_t c = 0; c < log->contacts; c++) {
+    for (size_t c = 0; c < log->rows; c++) {
         largest = fmax(largest, sum[c]);
         sum[c] = 0.0;
     }

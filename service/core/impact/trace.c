@@ -25,9 +25,9 @@ struct tracer {
     const struct trace_sides *sides;
     struct trace *trace;
     struct motion now, next;
-    double *impulse, *travel;  /* [contact]: integral of the force and its integral */
-    double (*silent)[NODES];   /* [contact]: no force */
-    double *none;              /* [contact]: zeros */
+    double *impulse, *travel;  /* [row]: integral of the force and its integral */
+    double (*silent)[NODES];   /* [row]: no force */
+    double *none;              /* [row]: zeros */
     size_t room, stride, skip; /* every stride-th instant is kept */
     int finer;
     struct pace *pace;
@@ -39,6 +39,7 @@ static bool create(struct tracer *tracer, struct arena *arena)
 {
     struct trace *trace = tracer->trace;
     size_t n = tracer->scene->contacts;
+    size_t rows = scene_rows(tracer->scene);
     /* room for instants: the fewer the more contacts */
     tracer->room = MOST_VALUES / n;
     if (tracer->room > MOST_INSTANTS)
@@ -49,10 +50,10 @@ static bool create(struct tracer *tracer, struct arena *arena)
     *trace = (struct trace){.contacts = n};
     trace->time = arena_take(arena, tracer->room, sizeof(double));
     trace->contact = arena_take(arena, n, sizeof *trace->contact);
-    tracer->impulse = arena_take(arena, n, sizeof(double));
-    tracer->travel = arena_take(arena, n, sizeof(double));
-    tracer->silent = arena_take(arena, n, sizeof *tracer->silent);
-    tracer->none = arena_take(arena, n, sizeof(double));
+    tracer->impulse = arena_take(arena, rows, sizeof(double));
+    tracer->travel = arena_take(arena, rows, sizeof(double));
+    tracer->silent = arena_take(arena, rows, sizeof *tracer->silent);
+    tracer->none = arena_take(arena, rows, sizeof(double));
     if (!trace->time || !trace->contact || !tracer->impulse || !tracer->travel || !tracer->silent ||
         !tracer->none || !motion_create(&tracer->now, tracer->scene, arena) ||
         !motion_create(&tracer->next, tracer->scene, arena))
@@ -112,9 +113,9 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     /* the motion of the rigid body and of the residual flexibility by the forces */
     double x = 0.0;
     double v = 0.0;
-    for (size_t j = 0; j < scene->contacts; j++) {
-        double w = sides->w[s][c * scene->contacts + j];
-        x += w * tracer->travel[j] + sides->residual[s][c * scene->contacts + j] * force[j];
+    for (size_t j = 0; j < scene_rows(scene); j++) {
+        double w = sides->w[s][c * scene_rows(scene) + j];
+        x += w * tracer->travel[j] + sides->residual[s][c * scene_rows(scene) + j] * force[j];
         v += w * tracer->impulse[j];
     }
     /* the body's modes */
@@ -178,7 +179,7 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
     if (scene_prepare(scene, level, tracer->pace) != PERCUSS_OK)
         return false;
     /* integrals of the forces */
-    for (size_t c = 0; c < scene->contacts; c++) {
+    for (size_t c = 0; c < scene_rows(scene); c++) {
         double impulse = 0.0;
         double travel = 0.0;
         for (int j = 0; j < NODES; j++) {
@@ -200,12 +201,12 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 /* A logged step in parts: the cubic of a step is a cubic on each of them. */
 static bool show_step(struct tracer *tracer, const struct force_step *logged)
 {
-    size_t n = tracer->scene->contacts;
+    size_t n = scene_rows(tracer->scene);
     int finer = logged->level + tracer->finer < STEP_LEVELS ? tracer->finer : 0;
     int parts = 1 << finer;
-    double force[PERCUSS_MAX_CONTACTS][NODES];
-    double end_force[PERCUSS_MAX_CONTACTS];
-    double end_indentation[PERCUSS_MAX_CONTACTS];
+    double force[SCENE_MOST_ROWS][NODES];
+    double end_force[SCENE_MOST_ROWS];
+    double end_indentation[SCENE_MOST_ROWS];
     for (int p = 0; p < parts; p++) {
         /* the cubics at the part's nodes and at its end */
         for (size_t c = 0; c < n; c++) {
@@ -244,7 +245,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     }
     /* the rest is shorter than a step */
     double left = end - tracer->now.time;
-    for (size_t c = 0; c < tracer->scene->contacts; c++)
+    for (size_t c = 0; c < scene_rows(tracer->scene); c++)
         tracer->travel[c] += left * tracer->impulse[c];
     motion_advance(&tracer->now, tracer->scene, left);
     sample(tracer, tracer->none, tracer->none);

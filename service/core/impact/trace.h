@@ -10,7 +10,7 @@
 #include "impact/impact.h"
 
 /* How the scene's rigid coupling and residual flexibility divide between the two bodies of each
- * contact; [0]: the body that the normal points to. Matrices are contacts^2. NULL `w`: unknown. */
+ * contact; [0]: the body that the normal points to. Matrices are rows^2. NULL `w`: unknown. */
 struct trace_sides {
     const double *w[2];        /* 1/kg; both together are the scene's */
     const double *residual[2]; /* m/N */

@@ -22,6 +22,8 @@ void track_clear(struct track *track)
     track->impulse = track->moment = 0.0;
     track->inertia = track->viscosity = 0.0;
     track->end_time = 0.0;
+    track->tangential[0] = track->tangential[1] = 0.0;
+    track->compressed = track->released = 0.0;
 }
 
 void track_open(struct track *track, double time, double gap_rate)
@@ -29,6 +31,7 @@ void track_open(struct track *track, double time, double gap_rate)
     track->open = (struct sub_impact){
         .start = time, .compression_end = time, .end = time, .gap_rate_before = gap_rate};
     track->deepened = 0.0;
+    track->stuck = track->slid = false;
 }
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
@@ -160,6 +163,36 @@ void track_step(struct track *track, double time, double h, const struct track_v
     add_omitted(track, h, values);
 }
 
+void track_work(struct track *track, double h, const double *force, const double *rate)
+{
+    for (int j = 0; j < NODES; j++) {
+        double work = h * collocation.weight[j] * force[j] * rate[j];
+        *(rate[j] < 0.0 ? &track->compressed : &track->released) += fabs(work);
+    }
+}
+
+void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
+                 double (*const stiffness)[NODES])
+{
+    for (int j = 0; j < NODES; j++) {
+        for (int t = 0; t < 2; t++)
+            track->open.impulse_tangential[t] += h * collocation.weight[j] * force[t][j];
+        track->slid = track->slid || (normal[j] > 0.0 && stiffness[0][j] == 0.0);
+        track->stuck = track->stuck || stiffness[0][j] > 0.0;
+    }
+}
+
+/* Of the sub-impact under way; one that sticks at first and turns back may slide then. */
+static enum percuss_friction_state state_of(const struct track *track)
+{
+    const double *before = track->open.slip_before, *after = track->open.slip_after;
+    if (!track->slid)
+        return track->stuck ? PERCUSS_FRICTION_STATE_STUCK : PERCUSS_FRICTION_STATE_NONE;
+    if (before[0] * after[0] + before[1] * after[1] < 0.0)
+        return PERCUSS_FRICTION_STATE_REVERSED;
+    return track->stuck ? PERCUSS_FRICTION_STATE_PARTLY : PERCUSS_FRICTION_STATE_SLID;
+}
+
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate)
 {
     struct sub_impact *open = &track->open;
@@ -168,6 +201,9 @@ void track_close(struct track *track, const struct contact_law *law, double time
     open->gap_rate_after = gap_rate;
     open->peak_force = contact_law_force(law, open->max_indentation - track->deepened, &stiffness);
     track->impulse += open->impulse;
+    for (int t = 0; t < 2; t++)
+        track->tangential[t] += open->impulse_tangential[t];
+    open->friction_state = state_of(track);
     track->end_time = time;
     if (track->count < PERCUSS_MAX_SUB_IMPACTS)
         track->list[track->count] = *open;

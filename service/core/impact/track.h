@@ -20,12 +20,17 @@ struct track {
     double impulse;          /* of all of them, N s */
     double moment;           /* of the force over time from the stated instant, N s^2 */
     double end_time;         /* of the last one */
-    struct sub_impact open;  /* the one under way */
+    double tangential[2];    /* impulse along the tangents, N s */
+    /* work of the force on the rigid gap while it shrinks, and by it while it grows, J */
+    double compressed, released;
+    struct sub_impact open; /* the one under way */
     /* effect of omitted inertia and viscosity: integrals of K' F' (N^2/(m s)) and of F'^2 (N^2/s)
      * over all of them, K the law's stiffness */
     double inertia, viscosity;
+    bool stuck,
+        slid; /* friction of the one under way: at some instant not all of it slid, all did */
     double deepened; /* growth of the dent since the touch, m; indentations in the list count from
-                        its bottom at that touch */
+                       its bottom at that touch */
 };
 
 /* Memory from the arena. False: out of memory. */
@@ -43,6 +48,14 @@ struct track_values {
 
 /* Adds a step of length h from `time`. */
 void track_step(struct track *track, double time, double h, const struct track_values *values);
+
+/* Adds the work on the rigid gap, whose rates at the nodes these are. */
+void track_work(struct track *track, double h, const double *force, const double *rate);
+
+/* Adds the tangents' forces at the nodes of a step and the slopes of their law, 0 where all of the
+ * contact slides, beside the normal ones. */
+void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
+                 double (*const stiffness)[NODES]);
 
 /* Ends the one under way: separation, or the end of the window. */
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate);

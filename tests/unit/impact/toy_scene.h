@@ -56,7 +56,7 @@ static inline double *toy_array(struct toy *toy, size_t count, const double *val
     return array;
 }
 
-/* Oscillators of one body; participation holds `count` numbers per contact, contact by contact. */
+/* Oscillators of one body; participation holds `count` numbers per row, row by row. */
 static inline struct scene_group *toy_add(struct toy *toy, size_t body, size_t count,
                                           const double *omega, double damping,
                                           const double *participation)
@@ -68,9 +68,9 @@ static inline struct scene_group *toy_add(struct toy *toy, size_t body, size_t c
     group->count = count;
     group->stride = group->set->stride;
     group->body = body;
-    group->participation = arena_take(&toy->arena, toy->scene.contacts, sizeof(double *));
+    group->participation = arena_take(&toy->arena, scene_rows(&toy->scene), sizeof(double *));
     assert_non_null(group->participation);
-    for (size_t c = 0; c < toy->scene.contacts; c++)
+    for (size_t c = 0; c < scene_rows(&toy->scene); c++)
         group->participation[c] = toy_array(toy, count, participation + c * count);
     return group;
 }

@@ -1,0 +1,144 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/friction_step.h"
+
+#include <math.h>
+
+/* Lagrange's polynomials through `count` places, at s. */
+static void lagrange(const double *place, size_t count, double s, double *value)
+{
+    for (size_t j = 0; j < count; j++) {
+        value[j] = 1.0;
+        for (size_t i = 0; i < count; i++)
+            if (i != j)
+                value[j] *= (s - place[i]) / (place[j] - place[i]);
+    }
+}
+
+/* The start, the nodes and the end. */
+static const size_t INNER = NODES + 1, ALL = NODES + 2;
+
+static void set_polynomials(struct friction_step *step)
+{
+    double place[NODES + 2] = {0.0};
+    for (int i = 0; i < NODES; i++)
+        place[i + 1] = collocation.node[i];
+    place[NODES + 1] = 1.0;
+    for (int p = 0; p < FRICTION_PARTS; p++) {
+        double share = (p + 1.0) / FRICTION_PARTS;
+        for (int i = 0; i < NODES; i++)
+            lagrange(place, INNER, place[i] + share * (place[i + 1] - place[i]),
+                     step->to_node[i][p]);
+        lagrange(place, ALL, place[NODES] + share * (1.0 - place[NODES]), step->to_end[p]);
+    }
+}
+
+/* The steps' own error goes with their accuracy, too. */
+static const double CELLS = 4.0;
+enum { FEWEST_CELLS = 16, MOST_CELLS = 256 };
+
+size_t friction_cells(double accuracy)
+{
+    double cells = CELLS * pow(accuracy, -0.25);
+    return cells < FEWEST_CELLS ? FEWEST_CELLS : cells < MOST_CELLS ? (size_t)cells : MOST_CELLS;
+}
+
+bool friction_step_create(struct friction_step *step, const struct scene *scene, size_t cells,
+                          struct arena *arena)
+{
+    size_t n = scene->frictions;
+    *step = (struct friction_step){.count = n};
+    if (n == 0)
+        return true;
+    step->now = arena_take(arena, 3 * n, sizeof *step->now);
+    if (!step->now)
+        return false;
+    step->along = step->now + n;
+    step->after = step->along + n;
+    for (size_t i = 0; i < n; i++) {
+        const struct scene_friction *of = &scene->friction[i];
+        if (!friction_create(&step->now[i], of->coefficient, of->ratio, cells, arena) ||
+            !friction_second(&step->along[i], &step->now[i], arena) ||
+            !friction_second(&step->after[i], &step->now[i], arena))
+            return false;
+    }
+    set_polynomials(step);
+    return true;
+}
+
+void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *depth)
+{
+    for (size_t i = 0; i < step->count; i++) {
+        size_t contact = scene->friction[i].contact;
+        friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
+    }
+}
+
+/* The way's values at a point by its polynomials. */
+static void at_point(const struct friction_way *way, const double *polynomial, bool with_end,
+                     double value[3])
+{
+    for (int r = 0; r < 3; r++) {
+        const double *nodes = way->nodes[r];
+        value[r] = polynomial[0] * way->start[r];
+        for (int j = 0; j < NODES; j++)
+            value[r] += polynomial[j + 1] * nodes[j];
+        if (with_end)
+            value[r] += polynomial[NODES + 1] * way->end[r];
+    }
+}
+
+/* The solved normal force over that of the law at the solved indentation, which differ by what the
+ * iteration leaves: so a contact that slides has its coefficient's share to rounding. */
+static double solved_share(const struct friction *friction, double normal)
+{
+    return normal > 0.0 && friction->normal > 0.0 ? normal / friction->normal : 1.0;
+}
+
+void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
+                         const double normal[NODES], double (*force)[NODES],
+                         double (*stiffness)[NODES])
+{
+    struct friction *along = &step->along[i];
+    double value[3];
+    double sum[2];
+    friction_copy(along, &step->now[i]);
+    for (int node = 0; node < NODES; node++) {
+        for (int p = 0; p < FRICTION_PARTS; p++) {
+            at_point(way, step->to_node[node][p], false, value);
+            friction_walk(along, value[0], value + 1, sum);
+        }
+        double share = solved_share(along, normal[node]);
+        for (int j = 0; j < 2; j++) {
+            force[j][node] = share * sum[j];
+            stiffness[j][node] = along->ratio[2 * j] * along->stuck;
+        }
+    }
+}
+
+void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
+                       double normal, double force[2], double stiffness[2])
+{
+    struct friction *after = &step->after[i];
+    double value[3];
+    friction_copy(after, &step->along[i]);
+    for (int p = 0; p < FRICTION_PARTS; p++) {
+        at_point(way, step->to_end[p], true, value);
+        friction_walk(after, value[0], value + 1, force);
+    }
+    double share = solved_share(after, normal);
+    for (int j = 0; j < 2; j++) {
+        force[j] *= share;
+        stiffness[j] = after->ratio[2 * j] * after->stuck;
+    }
+}
+
+void friction_step_take(struct friction_step *step)
+{
+    for (size_t i = 0; i < step->count; i++) {
+        struct friction taken = step->after[i];
+        step->after[i] = step->now[i];
+        step->now[i] = taken;
+    }
+}

@@ -1,0 +1,64 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The tangential forces of contacts with friction on the steps of a contact phase. The law depends
+ * on the way (contact/friction.h): it is walked along the polynomials through the step's start and
+ * nodes, with points between the nodes, so that no instant of sticking or sliding is looked for:
+ * the cells smear them. */
+#ifndef PERCUSS_IMPACT_FRICTION_STEP_H
+#define PERCUSS_IMPACT_FRICTION_STEP_H
+
+#include "contact/friction.h"
+#include "impact/collocation.h"
+#include "impact/scene.h"
+
+/* Parts of a way between two nodes. */
+enum { FRICTION_PARTS = 4 };
+
+struct friction_step {
+    size_t count;           /* contacts with friction */
+    struct friction *now;   /* [count]: histories at the present */
+    struct friction *along; /* [count]: on the step under way, up to its last node */
+    struct friction *after; /* [count]: at its end */
+    /* Lagrange's polynomials at the points of the ways to the nodes, through the start and the
+     * nodes; on the way from the last node to the end through the end as well */
+    double to_node[NODES][FRICTION_PARTS][NODES + 1];
+    double to_end[FRICTION_PARTS][NODES + 2];
+};
+
+/* The local d of a contact's rows n, t1, t2 (scene.h) at the start, the nodes and the end of a
+ * step, m. */
+struct friction_way {
+    double start[3];
+    const double *nodes[3]; /* [NODES] */
+    double end[3];
+};
+
+/* Cells of a contact for a relative accuracy of the forces. The error of a sphere's tangential
+ * speed after the impact, over the coefficient's speed, is 0.3/cells^2. */
+size_t friction_cells(double accuracy);
+
+/* Memory for a scene from the arena; `cells` a contact. False: out of memory. */
+bool friction_step_create(struct friction_step *step, const struct scene *scene, size_t cells,
+                          struct arena *arena);
+
+/* A contact phase begins: the cells of all contacts, open, by their laws and the largest
+ * indentations that are expected, [contact]. */
+void friction_step_begin(struct friction_step *step, const struct scene *scene,
+                         const double *depth);
+
+/* Walks friction `i` from the present to the nodes: force[j][node] becomes the force of row t_j, N,
+ * stiffness[j][node] its slope by that row's d, N/m. `normal`: the contact's forces there, as the
+ * iteration left them. */
+void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
+                         const double normal[NODES], double (*force)[NODES],
+                         double (*stiffness)[NODES]);
+
+/* The same from the last node to the end. */
+void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
+                       double normal, double force[2], double stiffness[2]);
+
+/* The end becomes the present. */
+void friction_step_take(struct friction_step *step);
+
+#endif
