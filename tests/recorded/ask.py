@@ -50,6 +50,8 @@ def plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value):
         members = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return {name: plain(member) for name, member in members.items() if name not in VOLATILE}
+    if getattr(getattr(value, "dtype", None), "names", None):
+        return {name: plain(value[name]) for name in value.dtype.names}
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, (tuple, list)):

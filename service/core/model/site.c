@@ -206,18 +206,26 @@ void site_relative_curvature(const struct site *a, const struct pose *pose_a, co
     curvature[1] = 0.5 * (mean + spread);
 }
 
-void site_least_curvatures(const struct site *a, const struct pose *pose_a, const struct site *b,
-                           const struct pose *pose_b, const double normal[3], double along[2])
+void site_least_direction(const struct site *a, const struct pose *pose_a, const struct site *b,
+                          const struct pose *pose_b, const double normal[3], double direction[3])
 {
-    double t[2][3], turned[2][3] = {{0.0}};
-    double sum[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
+    double t[2][3];
+    double sum[3] = {0.0, 0.0, 0.0};
     tangents(normal, t);
     add_curvature(a, pose_a, t, sum);
     add_curvature(b, pose_b, t, sum);
     /* across the direction of the larger one */
     double angle = 0.5 * atan2(2.0 * sum[1], sum[0] - sum[2]) + M_PI_2;
-    add_scaled3(cos(angle), t[0], turned[0]);
-    add_scaled3(sin(angle), t[1], turned[0]);
+    scale3(cos(angle), t[0], direction);
+    add_scaled3(sin(angle), t[1], direction);
+}
+
+void site_least_curvatures(const struct site *a, const struct pose *pose_a, const struct site *b,
+                           const struct pose *pose_b, const double normal[3], double along[2])
+{
+    double turned[2][3];
+    double own[3] = {0.0, 0.0, 0.0};
+    site_least_direction(a, pose_a, b, pose_b, normal, turned[0]);
     cross3(normal, turned[0], turned[1]);
     add_curvature(a, pose_a, turned, own);
     along[0] = own[0];

@@ -82,6 +82,11 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
                                 const double point[3], const double outward[3], double allowed,
                                 size_t contact, struct site *site, struct fault *fault);
 
+/* The direction in the surface in which the sum of both surfaces' curvatures is least: the major
+ * axis of the contact's ellipse. World, unit; sites in the frames of their poses. */
+void site_least_direction(const struct site *a, const struct pose *pose_a, const struct site *b,
+                          const struct pose *pose_b, const double normal[3], double direction[3]);
+
 /* Curvatures (1/m, > 0 where convex) of both surfaces in the direction in which their sum is least;
  * as below. */
 void site_least_curvatures(const struct site *a, const struct pose *pose_a, const struct site *b,

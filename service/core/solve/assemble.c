@@ -24,13 +24,13 @@ struct addition {
     size_t family;
     const struct prepared_family *prepared;
     size_t count;       /* modes of the family that take part */
-    double *compliance; /* [contact], of the family by itself; NAN: not known yet */
+    double *compliance; /* [row], of the family by itself; NAN: not known yet */
 };
 
 static bool family_is_loaded(const struct problem *problem, size_t body, size_t family)
 {
-    for (size_t c = 0; c < problem->contact_count; c++)
-        if (problem_load(problem, c, body, family))
+    for (size_t r = 0; r < problem_rows(problem); r++)
+        if (problem_load(problem, r, body, family))
             return true;
     return false;
 }
@@ -80,7 +80,7 @@ static double participation_scale(const struct body *body)
     return 1.0 / sqrt(body->mass);
 }
 
-/* Part of the compliance between two contacts that the modal sum holds. */
+/* Part of the compliance between two rows that the modal sum holds. */
 static double held_compliance(const struct scene_group *group, size_t i, size_t j)
 {
     const double *a = group->participation[i];
@@ -92,11 +92,12 @@ static double held_compliance(const struct scene_group *group, size_t i, size_t 
     return sum;
 }
 
-/* The group as the contacts excite it, with rows of those contacts alone; *excited: any does. */
+/* The group as the scene excites it, with participations of those rows alone; *excited: any does.
+ */
 static bool make_group(const struct addition *add, const struct prepared_group *source,
                        struct scene_group *group, bool *excited)
 {
-    size_t n = add->problem->contact_count;
+    size_t n = problem_rows(add->problem);
     *group = (struct scene_group){.set = source->set, .body = add->body};
     /* the modes that the scene asks for */
     while (group->count < source->set->count && source->mode[group->count] < add->count)
@@ -105,7 +106,7 @@ static bool make_group(const struct addition *add, const struct prepared_group *
     group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
-    /* a row for every contact that excites one of them */
+    /* a row of participations for every one that excites one of them */
     double scale = participation_scale(add->problem->bodies[add->body]);
     *excited = false;
     for (size_t c = 0; c < n && group->count; c++) {
@@ -123,12 +124,12 @@ static bool make_group(const struct addition *add, const struct prepared_group *
     return true;
 }
 
-/* Adds a group if a contact excites it, and takes its static compliance from the residual. */
+/* Adds a group if a row excites it, and takes its static compliance from the residual. */
 static bool add_group(const struct addition *add, const struct prepared_group *source,
                       double *residual, double *left)
 {
     struct assembly *assembly = add->assembly;
-    size_t n = add->problem->contact_count;
+    size_t n = problem_rows(add->problem);
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
     bool excited;
     if (!make_group(add, source, group, &excited))
@@ -160,7 +161,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     return true;
 }
 
-/* Adds the omitted modes from add->count on at each contact; `left`: the family's compliance
+/* Adds the omitted modes from add->count on at each row; `left`: the family's compliance
  * without that of its groups. */
 static void add_omitted(const struct addition *add, const double *left)
 {
@@ -169,7 +170,7 @@ static void add_omitted(const struct addition *add, const double *left)
     double omega = add->prepared->modes->omega[add->count];
     double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
     double damping = damping_from(body, add->count);
-    for (size_t i = 0; i < add->problem->contact_count; i++) {
+    for (size_t i = 0; i < problem_rows(add->problem); i++) {
         const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
             continue;
@@ -191,7 +192,7 @@ static bool add_family(const struct addition *add, double *residual)
 {
     const struct problem *problem = add->problem;
     const struct body *body = problem->bodies[add->body];
-    size_t n = problem->contact_count;
+    size_t n = problem_rows(problem);
     double *left = arena_take(problem->arena, n, sizeof *left);
     if (!left)
         return false;
@@ -217,13 +218,31 @@ static bool add_family(const struct addition *add, double *residual)
     return true;
 }
 
+static bool fill_friction(struct assembly *assembly, const struct problem *problem)
+{
+    size_t n = problem->friction_count;
+    struct scene_friction *friction = arena_take(problem->arena, n + 1, sizeof *friction);
+    if (!friction)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        const struct contact_friction *of = &problem->friction[i];
+        friction[i] = (struct scene_friction){.contact = of->contact,
+                                              .coefficient = of->coefficient,
+                                              .ratio = {of->ratio[0], of->ratio[1], of->ratio[2]}};
+    }
+    assembly->scene.frictions = n;
+    assembly->scene.friction = friction;
+    return true;
+}
+
 static bool fill_scene(struct assembly *assembly, const struct problem *problem)
 {
     size_t n = problem->contact_count;
-    /* gaps, wider by the depth of dents */
-    double *gap = arena_take(problem->arena, n, sizeof *gap);
-    double *acceleration = arena_take(problem->arena, n, sizeof *acceleration);
-    if (!gap || !acceleration)
+    size_t rows = problem_rows(problem);
+    /* gaps, wider by the depth of dents; tangents begin with no displacement */
+    double *gap = arena_take(problem->arena, rows, sizeof *gap);
+    double *acceleration = arena_take(problem->arena, rows, sizeof *acceleration);
+    if (!gap || !acceleration || !fill_friction(assembly, problem))
         return false;
     for (size_t c = 0; c < n; c++) {
         gap[c] = problem->request->contacts[c].gap + problem->contact_model.depth[c];
@@ -232,7 +251,7 @@ static bool fill_scene(struct assembly *assembly, const struct problem *problem)
     /* all else is the problem's */
     assembly->scene.contacts = n;
     assembly->scene.bodies = problem->body_count;
-    assembly->scene.w = problem->w;
+    assembly->scene.w = problem->row_w;
     assembly->scene.gap = gap;
     assembly->scene.gap_rate = problem->gap_rate;
     assembly->scene.gap_acceleration = acceleration;
@@ -268,11 +287,11 @@ static bool assembly_create(struct assembly *assembly, const struct problem *pro
     assembly->groups = arena_take(problem->arena, groups, sizeof *assembly->groups);
     assembly->sources = arena_take(problem->arena, groups, sizeof(struct prepared_group *));
     assembly->families = arena_take(problem->arena, groups, sizeof *assembly->families);
-    /* either side of a contact, every family */
-    assembly->parts = arena_take(problem->arena, 2 * BODY_MOST_FAMILIES * problem->contact_count,
-                                 sizeof *assembly->parts);
-    assembly->omitted =
-        arena_take(problem->arena, problem->contact_count, sizeof *assembly->omitted);
+    /* either side of a row, every family */
+    size_t rows = problem_rows(problem);
+    assembly->parts =
+        arena_take(problem->arena, 2 * BODY_MOST_FAMILIES * rows, sizeof *assembly->parts);
+    assembly->omitted = arena_take(problem->arena, rows, sizeof *assembly->omitted);
     return assembly->groups && assembly->sources && assembly->families && assembly->parts &&
            assembly->omitted;
 }
@@ -281,15 +300,16 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
               const struct mode_choice *choice)
 {
     size_t n = problem->contact_count;
-    double *residual = arena_take(problem->arena, n * n, sizeof *residual);
-    double compliance[PERCUSS_MAX_CONTACTS];
+    size_t rows = problem_rows(problem);
+    double *residual = arena_take(problem->arena, rows * rows, sizeof *residual);
+    double compliance[SCENE_MOST_ROWS];
     if (!residual || !assembly_create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
     /* compliance in series with the laws */
     for (size_t c = 0; problem->compliance.series && c < n; c++)
-        residual[c * n + c] = problem->compliance.series[c];
+        residual[c * rows + c] = problem->compliance.series[c];
     for (size_t c = 0; problem->shift && c < n; c++)
-        residual[c * n + c] += problem->shift[c];
+        residual[c * rows + c] += problem->shift[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
     /* every loaded family of every body that vibrates */
@@ -305,8 +325,8 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                                    .compliance = compliance};
             if (!family_is_loaded(problem, b, add.family))
                 continue;
-            for (size_t c = 0; c < n; c++)
-                compliance[c] = NAN;
+            for (size_t r = 0; r < rows; r++)
+                compliance[r] = NAN;
             add.count = assembly_wanted_modes(&add, &rigid, choice);
             if (add.count > MODE_CHOICE_MOST)
                 return false;
@@ -339,7 +359,7 @@ bool assembly_same_modes(const struct assembly *a, const struct assembly *b)
 bool assemble_remainder(const struct assembly *assembly, const struct problem *problem,
                         struct scene *scene)
 {
-    size_t n = problem->contact_count;
+    size_t n = problem_rows(problem);
     *scene = assembly->scene;
     scene->group =
         arena_take(problem->arena, scene->groups + assembly->part_count, sizeof *scene->group);
@@ -362,8 +382,8 @@ bool assemble_remainder(const struct assembly *assembly, const struct problem *p
         if (!row || !group->participation || !group->set)
             return false;
         row[0] = sqrt(part->compliance) * group->set->omega[0];
-        group->participation[part->contact] = row;
-        residual[part->contact * n + part->contact] -= part->compliance;
+        group->participation[part->row] = row;
+        residual[part->row * n + part->row] -= part->compliance;
     }
     return true;
 }

@@ -8,16 +8,16 @@
 #include "impact/scene.h"
 #include "solve/problem.h"
 
-/* The modes from `first` on of a family of a body, omitted, as one contact on it sees them. */
+/* The modes from `first` on of a family of a body, omitted, as one row on it sees them. */
 struct omitted_part {
-    size_t body, contact;
+    size_t body, row;
     size_t family;
     size_t first;
     double compliance; /* m/N */
     double omega;      /* of the first, rad/s; of a body that has no more, of its last one */
 };
 
-/* Effect of all bodies' omitted modes on a contact besides residual flexibility: their response to
+/* Effect of all bodies' omitted modes on a row besides residual flexibility: their response to
  * a slow force F is C F - viscosity F' - inertia F'' + ... */
 struct omitted {
     double inertia;   /* sum phi^2/omega^4, m s^2/N */
@@ -31,7 +31,7 @@ struct assembly {
     size_t *families;                      /* of each group; BODY_MOST_FAMILIES: a half-space's */
     struct omitted_part *parts;
     size_t part_count;
-    struct omitted *omitted;            /* [contact] */
+    struct omitted *omitted;            /* [row] */
     size_t modes[PERCUSS_MAX_BODIES];   /* taking part, by body */
     size_t offered[PERCUSS_MAX_BODIES]; /* with those of their groups that hardly would */
     size_t all_modes;                   /* taking part, of all bodies */

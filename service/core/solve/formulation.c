@@ -13,6 +13,7 @@
 #include "numeric/linear.h"
 #include "solve/contact_model.h"
 #include "solve/error/deviation.h"
+#include "solve/oblique.h"
 #include "solve/vibration.h"
 
 /* Faster approaches are outside the range of all models. */
@@ -198,21 +199,9 @@ static void find_rates(struct problem *problem, size_t index)
 static void find_service_w(struct problem *problem)
 {
     size_t n = problem->contact_count;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++) {
-            double sum = 0.0;
-            for (int p = 0; p < 2; p++) {
-                for (int q = 0; q < 2; q++) {
-                    const struct contact_side *a = &problem->sides[i][p];
-                    const struct contact_side *b = &problem->sides[j][q];
-                    if (a->body == b->body)
-                        sum += rigid_inverse_mass(problem->bodies[a->body], a->site.point,
-                                                  a->direction, b->site.point, b->direction);
-                }
-            }
-            problem->service_w[i * n + j] = sum;
-        }
-    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            problem->service_w[i * n + j] = problem_inverse_mass(problem, i, j);
 }
 
 static enum percuss_status choose_w(struct problem *problem, struct fault *fault)
@@ -314,6 +303,14 @@ static void choose_planes(struct problem *problem, size_t body)
         const struct contact_side *side = &problem->sides[i / 2][i % 2];
         chosen = side->body == body && bending_axes_choose(bent, &side->load, axes);
     }
+    for (size_t i = 0; !chosen && i < 4 * problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i / 4];
+        const struct contact_tangent *tangent = &friction->sides[i / 2 % 2][i % 2];
+        chosen = problem->sides[friction->contact][i % 2].body == body &&
+                 bending_axes_choose(bent, &tangent->load, axes);
+    }
+    if (axes->sine != 0.0)
+        oblique_turn(problem, body);
     for (size_t i = 0; axes->sine != 0.0 && i < 2 * problem->contact_count; i++) {
         struct contact_side *side = &problem->sides[i / 2][i % 2];
         if (side->body == body)
@@ -342,7 +339,7 @@ static bool allocate_contacts(struct problem *problem)
     size_t n = problem->contact_count;
     problem->sides = arena_reserve(problem->arena, n, sizeof *problem->sides); /* large */
     problem->hertz = arena_take(problem->arena, n, sizeof *problem->hertz);
-    problem->gap_rate = arena_take(problem->arena, n, sizeof(double));
+    problem->gap_rate = arena_take(problem->arena, 3 * n, sizeof(double));
     problem->sliding = arena_take(problem->arena, n, sizeof *problem->sliding);
     problem->service_w = arena_take(problem->arena, n * n, sizeof(double));
     problem->w = arena_take(problem->arena, n * n, sizeof(double));
@@ -355,6 +352,12 @@ enum percuss_status placement_find_rates(struct problem *problem, struct fault *
 {
     for (size_t i = 0; i < problem->request->contact_count; i++)
         find_rates(problem, i);
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i];
+        for (size_t t = 0; t < 2; t++)
+            problem->gap_rate[problem->contact_count + 2 * i + t] =
+                dot3(friction->tangent[t], problem->sliding[friction->contact]);
+    }
     enum percuss_status status = check_approach(problem, fault);
     return status ? status : find_compression(problem, fault);
 }
@@ -370,10 +373,14 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         if (!status)
             status = check_fit(problem, i, fault);
     }
+    if (!status)
+        status = oblique_find(problem, catalogue, fault);
     if (!status && !choose_all_planes(problem))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = choose_w(problem, fault);
+    if (!status && !oblique_find_rows(problem))
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = placement_find_rates(problem, fault);
     return status;
@@ -388,6 +395,8 @@ enum percuss_status formulate(struct problem *problem, const struct solve_contex
         status = contact_model_choose(problem, context->tables, fault);
     if (!status && problem->request->options.contact_model != PERCUSS_CONTACT_COMPLETE_FE)
         status = vibration_lend(problem, context->catalogue->boxes, &pace, fault);
+    if (!status)
+        status = oblique_check(problem, fault);
     if (!status)
         status = compliance_choose(problem, context->catalogue->compliance, fault);
     if (!status)

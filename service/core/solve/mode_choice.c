@@ -17,7 +17,7 @@ enum { FIRST_MODES = 32, SHAPES = 8 };
  * (modal_remainder_frequency): the square, with rounding. */
 static const double FASTEST = 3.001;
 
-/* One contact that may excite the family. */
+/* One row that may excite the family. */
 struct demand {
     const struct family_load *load;
     double left;   /* compliance that the modes so far do not hold, m/N */
@@ -33,14 +33,14 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
 {
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double stiffness = scale.force / scale.indentation;
-    double w = scene->w[contact * scene->contacts + contact];
+    double w = scene->w[contact * (scene_rows(scene) + 1)];
     return (struct demand){.load = load,
                            .weight = HERTZ_SLOW_INERTIA * stiffness * stiffness * w,
                            .delay = HERTZ_SLOW_VISCOSITY * scale.duration};
 }
 
-/* The contacts that load the family, as if each closed like the fastest of all: a body at rest on
- * another hands the impact on. */
+/* The rows that load the family, as if each contact closed like the fastest of all: a body at rest
+ * on another hands the impact on. */
 static size_t find_demands(const struct problem *problem, const struct scene *scene, size_t body,
                            size_t family, struct demand *demands, double *compliance)
 {
@@ -48,13 +48,16 @@ static size_t find_demands(const struct problem *problem, const struct scene *sc
     double rate = 0.0;
     for (size_t c = 0; c < scene->contacts; c++)
         rate = fmin(rate, scene->gap_rate[c]);
-    for (size_t c = 0; rate < 0.0 && c < scene->contacts; c++) {
-        const struct family_load *load = problem_load(problem, c, body, family);
+    for (size_t r = 0; rate < 0.0 && r < scene_rows(scene); r++) {
+        const struct family_load *load = problem_load(problem, r, body, family);
         if (!load)
             continue;
-        demands[count] = make_demand(scene, c, rate, load);
-        compliance[c] = modal_compliance(problem->bodies[body], family, load, load);
-        demands[count++].left = compliance[c];
+        /* a tangent is about as stiff as its contact */
+        size_t contact =
+            r < scene->contacts ? r : scene->friction[(r - scene->contacts) / 2].contact;
+        demands[count] = make_demand(scene, contact, rate, load);
+        compliance[r] = modal_compliance(problem->bodies[body], family, load, load);
+        demands[count++].left = compliance[r];
     }
     return count;
 }
@@ -88,7 +91,7 @@ static bool falls_short(const struct modal_family *modes, size_t first,
 struct shapes {
     const struct body *body;
     size_t loads, first, count;
-    double of[PERCUSS_MAX_CONTACTS][SHAPES];
+    double of[SCENE_MOST_ROWS][SHAPES];
 };
 
 static void find_shapes(struct shapes *shapes, const struct prepared_family *known, size_t k,
@@ -151,7 +154,7 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
                          const struct scene *scene, size_t body, size_t family, double *compliance)
 {
     /* the contacts' demands on the family */
-    struct demand demands[PERCUSS_MAX_CONTACTS];
+    struct demand demands[SCENE_MOST_ROWS];
     struct shapes shapes;
     const struct body *owner = problem->bodies[body];
     size_t loads = find_demands(problem, scene, body, family, demands, compliance);

@@ -23,8 +23,8 @@ struct mode_choice {
 };
 
 /* The number of modes of a loaded family of a body; `scene` needs no groups yet. More than
- * MODE_CHOICE_MOST: out of memory. compliance[contact] becomes the family's own of those contacts
- * that it was asked of on the way. */
+ * MODE_CHOICE_MOST: out of memory. compliance[row] becomes the family's own of those rows that it
+ * was asked of on the way. */
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
                          const struct scene *scene, size_t body, size_t family, double *compliance);
 

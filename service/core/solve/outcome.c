@@ -32,7 +32,7 @@ static bool is_plain_impact(const struct problem *problem, const struct impact_o
 {
     const struct contact_side *sides = problem->sides[0];
     return problem->contact_count == 1 && problem->impulse_compression[0] > 0.0 &&
-           problem->request->contacts[0].gap_acceleration == 0.0 &&
+           problem->friction_count == 0 && problem->request->contacts[0].gap_acceleration == 0.0 &&
            !problem->states[sides[0].body] && !problem->states[sides[1].body] &&
            outcome_is_complete(outcome);
 }
@@ -86,6 +86,13 @@ double outcome_rebound(const struct problem *problem, const struct impact_outcom
     return compression > 0.0 ? fabs(back) / compression : 0.0;
 }
 
+double outcome_tangential_change(const struct impact_outcome *a, const struct impact_outcome *b,
+                                 size_t contact)
+{
+    const double *x = a->tracks[contact].tangential, *y = b->tracks[contact].tangential;
+    return hypot(x[0] - y[0], x[1] - y[1]);
+}
+
 struct outcome_difference outcome_compare(const struct problem *problem,
                                           const struct impact_outcome *a,
                                           const struct impact_outcome *b)
@@ -95,6 +102,7 @@ struct outcome_difference outcome_compare(const struct problem *problem,
         double change = fabs(a->tracks[c].impulse - b->tracks[c].impulse);
         double compression = problem->impulse_compression[c];
         largest.impulse = fmax(largest.impulse, change);
+        change = fmax(change, outcome_tangential_change(a, b, c));
         if (compression > 0.0)
             largest.restitution = fmax(largest.restitution, change / compression);
     }

@@ -32,13 +32,18 @@ double outcome_deepest(const struct impact_outcome *outcome, size_t contact);
 double outcome_rebound(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t contact);
 
-/* Largest differences between two solutions over the contacts. */
+/* Largest differences between two solutions over the contacts; that of the restitution also of a
+ * tangential impulse over the compression's. */
 struct outcome_difference {
     double restitution, impulse;
 };
 struct outcome_difference outcome_compare(const struct problem *problem,
                                           const struct impact_outcome *a,
                                           const struct impact_outcome *b);
+
+/* Length of the difference of a contact's tangential impulses, N s. */
+double outcome_tangential_change(const struct impact_outcome *a, const struct impact_outcome *b,
+                                 size_t contact);
 
 /* Raises each contact's change of impulse (N s) to that between the two. */
 void outcome_widen_impulses(const struct problem *problem, const struct impact_outcome *a,

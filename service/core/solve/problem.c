@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "model/rigid.h"
+
 struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
                                struct arena *arena)
 {
@@ -43,13 +45,41 @@ double problem_largest_compression(const struct problem *problem)
     return largest;
 }
 
-const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+struct row_side problem_row_side(const struct problem *problem, size_t row, int which)
+{
+    size_t n = problem->contact_count;
+    if (row < n) {
+        const struct contact_side *side = &problem->sides[row][which];
+        return (struct row_side){side->body, side->site.point, side->direction, &side->load};
+    }
+    const struct contact_friction *friction = &problem->friction[(row - n) / 2];
+    const struct contact_side *side = &problem->sides[friction->contact][which];
+    const struct contact_tangent *tangent = &friction->sides[(row - n) % 2][which];
+    return (struct row_side){side->body, side->site.point, tangent->direction, &tangent->load};
+}
+
+const struct family_load *problem_load(const struct problem *problem, size_t row, size_t body,
                                        size_t family)
 {
     for (int which = 0; which < 2; which++) {
-        const struct contact_side *side = &problem->sides[contact][which];
-        if (side->body == body && side->load.family[family].acts)
-            return &side->load.family[family];
+        struct row_side side = problem_row_side(problem, row, which);
+        if (side.body == body && side.load->family[family].acts)
+            return &side.load->family[family];
     }
     return NULL;
+}
+
+double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
+{
+    double sum = 0.0;
+    for (int p = 0; p < 2; p++) {
+        for (int q = 0; q < 2; q++) {
+            struct row_side a = problem_row_side(problem, i, p);
+            struct row_side b = problem_row_side(problem, j, q);
+            if (a.body == b.body)
+                sum += rigid_inverse_mass(problem->bodies[a.body], a.point, a.direction, b.point,
+                                          b.direction);
+        }
+    }
+    return sum;
 }

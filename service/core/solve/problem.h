@@ -27,6 +27,19 @@ struct contact_side {
     struct site_load load;
 };
 
+/* Friction of a contact. */
+struct contact_friction {
+    size_t contact;
+    double coefficient;
+    double deviation; /* of the coefficient, one standard deviation */
+    double ratio[3];  /* tangential over normal stiffness, a tensor xx, xy, yy of its tangents */
+    double tangent[2][3]; /* world, unit */
+    struct contact_tangent {
+        double direction[3]; /* of the force on the body per newton, body frame */
+        struct site_load load;
+    } sides[2][2]; /* [tangent][a, b] */
+};
+
 /* The contacts' laws, see contact_model.h. */
 struct contact_model {
     bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
@@ -63,13 +76,17 @@ struct problem {
     const struct body_state **states; /* initial, in those planes; NULL: none */
     struct contact_side (*sides)[2];  /* [contact]: a, b */
     struct hertz_contact *hertz;      /* [contact] */
-    double *gap_rate;                 /* [contact], rigid, m/s */
+    double *gap_rate;                 /* [row], rigid, m/s: of a tangent the slip */
     double (*sliding)[3];             /* [contact]: velocity of a's point against b's along the
-                                         surface, world, m/s; nothing but a warning follows from it */
-    double *service_w;                /* contacts^2, from the bodies */
-    double *w;                        /* the one in use */
-    double *impulse_compression;      /* [contact], Eq. (4) or its complementarity problem, N s */
-    bool from_client;                 /* that W */
+                                         surface, world, m/s; without friction only a warning
+                                         follows from it */
+    size_t friction_count;
+    struct contact_friction *friction; /* [friction_count], ascending contacts */
+    double *service_w;                 /* contacts^2, from the bodies */
+    double *w;                         /* the one in use */
+    double *row_w;                     /* the same of all rows (impact/scene.h), rows^2 */
+    double *impulse_compression;       /* [contact], Eq. (4) or its complementarity problem, N s */
+    bool from_client;                  /* that W */
     struct contact_model contact_model;
     struct compliance compliance;
     double *shift; /* [contact], m/N: in series besides, of a shifted model; NULL: none */
@@ -99,8 +116,27 @@ double problem_approach(const struct problem *problem);
 /* Of the contacts' compression impulses, N s. */
 double problem_largest_compression(const struct problem *problem);
 
-/* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
-const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+/* The rows of its scenes (impact/scene.h): the contacts' normals, then two tangents of each
+ * friction. */
+static inline size_t problem_rows(const struct problem *problem)
+{
+    return problem->contact_count + 2 * problem->friction_count;
+}
+
+/* One side of a row. */
+struct row_side {
+    size_t body;
+    const double *point;     /* body frame, m */
+    const double *direction; /* of the force on the body per newton, body frame */
+    const struct site_load *load;
+};
+struct row_side problem_row_side(const struct problem *problem, size_t row, int which);
+
+/* The load of a row on a body (an index) if it acts on the family, or NULL. */
+const struct family_load *problem_load(const struct problem *problem, size_t row, size_t body,
                                        size_t family);
+
+/* Velocity along row i due to a unit impulse along row j, 1/kg: the bodies that both share. */
+double problem_inverse_mass(const struct problem *problem, size_t i, size_t j);
 
 #endif

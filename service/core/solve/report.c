@@ -46,6 +46,73 @@ void report_warnings(const struct warnings *warnings, struct solve_result *resul
         memcpy(result->warnings[result->warning_count++], warnings->text[i], WARNING_SIZE);
 }
 
+/* The other two coefficients of restitution of a single contact: by the gap's rate, and by the work
+ * of the normal force while the gap shrinks and grows (Stronge). */
+static void fill_rebound(const struct problem *problem, const struct solution *solution, size_t c,
+                         struct solve_contact_result *contact)
+{
+    const struct track *track = &solution->outcome.tracks[c];
+    contact->restitution_kinematic = contact->restitution_energetic = NAN;
+    if (problem->contact_count > 1 || !(problem->impulse_compression[c] > 0.0) ||
+        isnan(contact->restitution))
+        return;
+    double rate = problem->gap_rate[c];
+    for (size_t r = 0; r < problem_rows(problem); r++)
+        rate += problem->row_w[r] * (r == 0 ? track->impulse : track->tangential[r - 1]);
+    contact->restitution_kinematic = -rate / problem->gap_rate[c];
+    /* without friction the impulse is in proportion to the change of the rate, which it only raises
+     */
+    if (problem->friction_count == 0 && problem->request->contacts[c].gap_acceleration == 0.0)
+        contact->restitution_energetic = fmax(contact->restitution, 0.0);
+    else if (track->compressed > 0.0)
+        contact->restitution_energetic = sqrt(track->released / track->compressed);
+}
+
+/* The state of all sub-impacts together. */
+static enum percuss_friction_state friction_state_of(const struct track *track)
+{
+    enum percuss_friction_state state = PERCUSS_FRICTION_STATE_NONE;
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++) {
+        enum percuss_friction_state one = track->list[i].friction_state;
+        if (state == PERCUSS_FRICTION_STATE_NONE || one == PERCUSS_FRICTION_STATE_REVERSED)
+            state = one;
+        else if (one != state && state != PERCUSS_FRICTION_STATE_REVERSED)
+            state = PERCUSS_FRICTION_STATE_PARTLY;
+    }
+    return state;
+}
+
+static void fill_friction(const struct problem *problem, const struct impact_outcome *outcome,
+                          size_t i, struct solve_contact_result *contact)
+{
+    const struct contact_friction *friction = &problem->friction[i];
+    const struct track *track = &outcome->tracks[friction->contact];
+    size_t row = problem->contact_count + 2 * i;
+    size_t rows = problem_rows(problem);
+    double square = 0.0, product = 0.0;
+    contact->friction = friction->coefficient;
+    contact->friction_state = friction_state_of(track);
+    memcpy(contact->tangent, friction->tangent[0], sizeof contact->tangent);
+    for (size_t t = 0; t < 2; t++) {
+        /* of rigid bodies, by all impulses */
+        double after = problem->gap_rate[row + t];
+        const double *w = problem->row_w + (row + t) * rows;
+        for (size_t c = 0; c < problem->contact_count; c++)
+            after += w[c] * outcome->tracks[c].impulse;
+        for (size_t j = 0; j < problem->friction_count; j++)
+            for (size_t s = 0; s < 2; s++)
+                after += w[problem->contact_count + 2 * j + s] *
+                         outcome->tracks[problem->friction[j].contact].tangential[s];
+        contact->impulse_tangential[t] = track->tangential[t];
+        contact->slip_before[t] = problem->gap_rate[row + t];
+        contact->slip_after[t] = after;
+        add_scaled3(track->tangential[t], friction->tangent[t], contact->impulse_vector);
+        square += contact->slip_before[t] * contact->slip_before[t];
+        product += contact->slip_before[t] * after;
+    }
+    contact->tangential_restitution = square > 0.0 ? -product / square : NAN;
+}
+
 static void fill_contacts(const struct problem *problem, const struct solution *solution,
                           struct solve_result *result)
 {
@@ -74,6 +141,27 @@ static void fill_contacts(const struct problem *problem, const struct solution *
         };
         /* its impulse, along the normal */
         scale3(track->impulse, problem->request->contacts[c].normal, contact->impulse_vector);
+        fill_rebound(problem, solution, c, contact);
+    }
+    for (size_t i = 0; i < problem->friction_count; i++)
+        fill_friction(problem, &solution->outcome, i,
+                      &result->contacts[problem->friction[i].contact]);
+}
+
+/* Adds the changes by a contact's tangential impulse, body frame. */
+static void add_friction(const struct problem *problem, const struct solve_result *result, size_t i,
+                         size_t body, double velocity[3], double angular[3])
+{
+    const struct contact_friction *friction = &problem->friction[i];
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &problem->sides[friction->contact][which];
+        for (int t = 0; side->body == body && t < 2; t++) {
+            double impulse[3];
+            scale3(result->contacts[friction->contact].impulse_tangential[t],
+                   friction->sides[t][which].direction, impulse);
+            rigid_apply_impulse(problem->bodies[body], side->site.point, impulse, velocity,
+                                angular);
+        }
     }
 }
 
@@ -94,6 +182,8 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
                                     angular);
             }
         }
+        for (size_t i = 0; i < problem->friction_count; i++)
+            add_friction(problem, result, i, b, velocity, angular);
         /* added to the velocities before, world */
         rotate3(problem->poses[b].rotation, velocity, result->bodies[b].velocity);
         rotate3(problem->poses[b].rotation, angular, result->bodies[b].angular_velocity);
@@ -639,7 +729,7 @@ enum percuss_status report_trace(const struct problem *problem, const struct sol
 {
     struct arena *arena = problem->arena;
     const struct scene *scene = &solution->assembly->scene;
-    struct force_log log = force_log_make(arena, scene->contacts);
+    struct force_log log = force_log_make(arena, scene_rows(scene));
     struct impact_settings settings = {.accuracy = solution->step_accuracy,
                                        .horizon = attempt_horizon(problem, scene),
                                        .max_work = trace_work(solution),

@@ -8,6 +8,7 @@
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
 #include "solve/formulation.h"
+#include "solve/oblique.h"
 
 /* Less of the effort allowed than a step costs at most. */
 static const double SPENT = 1e-3;
@@ -134,9 +135,10 @@ static enum percuss_status solution_search(struct attempt_context *context,
     context->neighbours->solutions = 0;
     *solution = (struct solution){.neighbours = context->neighbours, .restitution_by_speed = NAN};
     /* steps as the tolerance asks for to begin with, and as many modes */
-    struct attempt best = {.accuracy = attempt_first_accuracy(problem->tolerance, sequence,
-                                                              problem->contact_count > 1),
-                           .profile = sequence ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
+    bool fine = sequence || problem->friction_count > 0;
+    struct attempt best = {
+        .accuracy = attempt_first_accuracy(problem->tolerance, fine, problem->contact_count > 1),
+        .profile = sequence ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
     enum percuss_status status = refine_modes(context, &best, &solution->error.modes);
     if (status)
         return status;
@@ -206,6 +208,9 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
         /* again where the solution contradicts the formulation */
         if (!formulation_revise(problem, solution->scene, &solution->outcome))
             return PERCUSS_OK;
+        status = oblique_check(problem, fault);
+        if (status)
+            return status;
         solution->scene = NULL;
     }
 }

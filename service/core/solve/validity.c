@@ -14,6 +14,7 @@
 #include "solve/contact_model.h"
 #include "solve/error/deviation.h"
 #include "solve/error/law.h"
+#include "solve/oblique.h"
 #include "solve/outcome.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
@@ -282,7 +283,7 @@ static void find_sliding(const struct problem *problem, const struct impact_outc
     double impulse = FRICTION * outcome->tracks[c].impulse;
     double speed = norm3(problem->sliding[c]);
     char change[64] = "";
-    if (!(impulse > 0.0 && speed > SLIDING * approach))
+    if (oblique_of(problem, c) || !(impulse > 0.0 && speed > SLIDING * approach))
         return;
     /* no more than stops it, as far as the mass along the surface is known */
     if (!problem->from_client) {

@@ -110,7 +110,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene)
 {
-    if (scene->contacts > COUPLING_FEW)
+    if (scene->contacts > COUPLING_FEW || scene->frictions)
         return attempt_run(context, attempt, scene);
     /* a single impact needs none */
     choose_profile(attempt, scene);
@@ -123,7 +123,7 @@ enum percuss_status attempt_run_logged(struct attempt_context *context, struct a
     struct force_log *log = arena_take(context->arena, 1, sizeof *log);
     if (!log)
         return PERCUSS_INTERNAL;
-    *log = force_log_make(context->arena, scene->contacts);
+    *log = force_log_make(context->arena, scene_rows(scene));
     log->most = MOST_LOGGED / scene->contacts;
     return run_once(context, attempt, scene, log);
 }
@@ -140,12 +140,13 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
                                        double factor)
 {
     size_t n = context->problem->contact_count;
+    size_t rows = problem_rows(context->problem);
     struct scene scene = attempt->assembly->scene;
-    double *scaled = arena_take(context->arena, n, sizeof *scaled);
+    double *scaled = arena_take(context->arena, rows, sizeof *scaled);
     if (!scaled)
         return PERCUSS_INTERNAL;
-    for (size_t c = 0; c < n; c++)
-        scaled[c] = factor * scene.gap_rate[c];
+    for (size_t r = 0; r < rows; r++)
+        scaled[r] = factor * scene.gap_rate[r];
     scene.gap_rate = scaled;
     enum percuss_status status = attempt_run(context, attempt, &scene);
     for (size_t c = 0; !status && c < n; c++)
@@ -240,7 +241,7 @@ static size_t count_kept(const struct problem *problem, const struct impact_outc
 bool attempt_truncate(const struct problem *problem, const struct scene *scene,
                       const struct impact_outcome *answer, double allowed, struct scene *truncated)
 {
-    size_t n = scene->contacts;
+    size_t n = scene_rows(scene);
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     *truncated = *scene;
     truncated->group = arena_take(problem->arena, scene->groups, sizeof *truncated->group);

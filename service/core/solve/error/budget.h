@@ -43,6 +43,8 @@ struct model_error {
     double restitution;                   /* of the contact where it is largest */
     double yield;                         /* the part of metals of unstated yield */
     double impulse[PERCUSS_MAX_CONTACTS]; /* of each contact, N s; INFINITY: unknown */
+    double friction;                      /* by the coefficients' deviations: part of restitution */
+    double tangential[PERCUSS_MAX_CONTACTS]; /* and by them alone, N s along the surface */
 };
 
 /* Of the states that the bodies began from (state.h). */

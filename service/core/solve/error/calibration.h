@@ -55,6 +55,10 @@ static const double LONGER_STEPS = 100.0;
 /* Steps of an accuracy leave LEFT accuracy^LEFT_POWER of one impact's e. */
 static const double STEPS_LEFT = 0.1;
 static const double STEPS_LEFT_POWER = 0.8;
+/* The same of a tangential impulse besides, over the coefficient times the impulse of compression,
+ * by the accuracy's root: cells, and bends of the force (tests/unit/impact/test_friction_step.c).
+ */
+static const double FRICTION_LEFT = 0.04;
 /* A tolerance that demands an energy audit of a tenth of it; others close to CLOSURE tolerances. */
 static const double TOLERANCE_AUDITED = 1e-8;
 static const double CLOSURE = 10.0;

@@ -379,7 +379,7 @@ static double of_solid(const struct assembly *assembly, size_t body, size_t cont
 {
     for (size_t p = 0; p < assembly->part_count; p++) {
         const struct omitted_part *part = &assembly->parts[p];
-        if (part->body == body && part->contact == contact)
+        if (part->body == body && part->row == contact)
             return faster_than(part->omega * duration);
     }
     return 0.0;

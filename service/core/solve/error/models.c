@@ -57,13 +57,14 @@ static bool make_scene(const struct model_margin *margin, const struct perturbat
     size_t n = margin->problem->contact_count;
     struct arena *arena = margin->problem->arena;
     struct contact_law *laws = arena_take(arena, n, sizeof *laws);
-    double *residual = arena_take(arena, n * n, sizeof *residual);
+    size_t rows = scene_rows(scene);
+    double *residual = arena_take(arena, rows * rows, sizeof *residual);
     if (!laws || !residual)
         return false;
     memcpy(laws, scene->laws, n * sizeof *laws);
-    memcpy(residual, scene->residual, n * n * sizeof *residual);
+    memcpy(residual, scene->residual, rows * rows * sizeof *residual);
     for (size_t c = 0; c < n; c++)
-        deviate(margin, direction, c, &laws[c], &residual[c * n + c]);
+        deviate(margin, direction, c, &laws[c], &residual[c * rows + c]);
     scene->laws = laws;
     scene->residual = residual;
     return true;
@@ -420,6 +421,55 @@ static enum percuss_status amplify(const struct model_margin *margin, struct pac
     return PERCUSS_OK;
 }
 
+/* ---- Coefficients of friction ---- */
+
+/* A deviation takes no more of a coefficient. */
+static const double LEAST_COEFFICIENT = 0.01;
+
+/* Solves again with all coefficients a deviation larger and smaller, with the answer's steps: the
+ * changes of e and of the tangential impulses. */
+static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
+                                       struct model_error *error)
+{
+    const struct problem *problem = margin->problem;
+    const struct solution *solution = margin->solution;
+    struct attempt_context context = {
+        .problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work};
+    size_t n = problem->friction_count;
+    struct scene_friction *friction = arena_take(problem->arena, n, sizeof *friction);
+    struct scene scene = *solution->scene;
+    if (!friction)
+        return PERCUSS_INTERNAL;
+    scene.friction = friction;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (size_t i = 0; i < n; i++) {
+            const struct contact_friction *of = &problem->friction[i];
+            friction[i] = solution->scene->friction[i];
+            friction[i].coefficient =
+                fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
+        }
+        struct attempt attempt = {.accuracy = solution->step_accuracy,
+                                  .assembly = solution->assembly,
+                                  .profile = solution->step_profile};
+        enum percuss_status status = attempt_run(&context, &attempt, &scene);
+        if (status)
+            return status;
+        const struct impact_outcome *other = &attempt.outcome;
+        for (size_t i = 0; i < n; i++) {
+            size_t c = problem->friction[i].contact;
+            error->tangential[c] =
+                fmax(error->tangential[c], outcome_tangential_change(&solution->outcome, other, c));
+        }
+        for (size_t c = 0; c < problem->contact_count; c++) {
+            double change = fabs(solution->outcome.tracks[c].impulse - other->tracks[c].impulse);
+            error->impulse[c] = hypot(error->impulse[c], change);
+            if (problem->impulse_compression[c] > 0.0)
+                error->friction = fmax(error->friction, change / problem->impulse_compression[c]);
+        }
+    }
+    return PERCUSS_OK;
+}
+
 enum percuss_status models_find_error(const struct problem *problem,
                                       const struct solution *solution, struct pace *pace,
                                       struct model_error *error)
@@ -443,6 +493,9 @@ enum percuss_status models_find_error(const struct problem *problem,
     single(&margin, error);
     if (is_sequence(&margin))
         status = amplify(&margin, pace, error);
+    if (!status && problem->friction_count)
+        status = by_friction(&margin, pace, error);
+    error->restitution = hypot(error->restitution, error->friction);
     /* losses of the materials themselves, and of metals of unstated yield */
     double loss = loss_worst(problem, &solution->outcome);
     double yield = unstated_worst(problem, &solution->outcome);

@@ -13,15 +13,16 @@
 #include "solve/error/state.h"
 #include "solve/outcome.h"
 
-/* Adds the effect of a contact's impulse error on the velocities of one of its bodies. */
-static void add_velocity_error(const struct problem *problem, const struct contact_side *side,
-                               double impulse_error, struct solve_body_result *body)
+/* Adds the effect of an impulse's error on the velocities of a body. */
+static void add_velocity_error(const struct problem *problem, size_t index, const double *point,
+                               const double *direction, double impulse_error,
+                               struct solve_body_result *body)
 {
     double impulse[3];
     double velocity[3] = {0.0, 0.0, 0.0};
     double angular[3] = {0.0, 0.0, 0.0};
-    scale3(impulse_error, side->direction, impulse);
-    rigid_apply_impulse(problem->bodies[side->body], side->site.point, impulse, velocity, angular);
+    scale3(impulse_error, direction, impulse);
+    rigid_apply_impulse(problem->bodies[index], point, impulse, velocity, angular);
     body->velocity_error += norm3(velocity);
     body->angular_velocity_error += norm3(angular);
 }
@@ -36,18 +37,25 @@ static void report_velocity_errors(const struct problem *problem, struct solve_r
     for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
             const struct contact_side *side = &problem->sides[c][which];
-            add_velocity_error(problem, side, result->contacts[c].impulse_error,
-                               &result->bodies[side->body]);
+            add_velocity_error(problem, side->body, side->site.point, side->direction,
+                               result->contacts[c].impulse_error, &result->bodies[side->body]);
         }
+    for (size_t i = 0; i < 4 * problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i / 4];
+        const struct contact_side *side = &problem->sides[friction->contact][i % 2];
+        add_velocity_error(problem, side->body, side->site.point,
+                           friction->sides[i / 2 % 2][i % 2].direction,
+                           result->contacts[friction->contact].impulse_tangential_error,
+                           &result->bodies[side->body]);
+    }
 }
 
 /* Of a single contact: by the total error of its restitution. */
-static void report_single_impulse(const struct problem *problem, struct solve_result *result)
+static void report_single_impulse(struct solve_result *result)
 {
     struct solve_contact_result *contact = &result->contacts[0];
     contact->impulse_error_model = result->restitution_model * contact->impulse_compression;
     contact->impulse_error = result->restitution_total * contact->impulse_compression;
-    report_velocity_errors(problem, result);
 }
 
 /* Of all contacts of a group, the largest change that other solutions make, relative to
@@ -75,12 +83,31 @@ static double numerical(const struct problem *problem, const struct solution *so
     return fmax(error, steps * scale) + solution->error.states.restitution * scale;
 }
 
+/* Of the tangential impulses: modes and steps as that of the restitution, which has their changes
+ * in it, the cells and the steps that bends need, and the models by the coefficient's deviation and
+ * as the normal impulse. */
+static void report_tangential(const struct problem *problem, const struct solution *solution,
+                              struct solve_result *result)
+{
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i];
+        struct solve_contact_result *contact = &result->contacts[friction->contact];
+        double scale = outcome_impulse_scale(problem, &solution->outcome, friction->contact);
+        double numerical = (result->restitution_time + result->restitution_modes) * scale;
+        double cells =
+            FRICTION_LEFT * sqrt(solution->step_accuracy) * friction->coefficient * scale;
+        double models = hypot(solution->error.models.tangential[friction->contact],
+                              friction->coefficient * contact->impulse_error_model);
+        contact->impulse_tangential_error = numerical + cells + models;
+    }
+}
+
 static void report_impulses(const struct problem *problem, const struct solution *solution,
                             struct solve_result *result)
 {
     const struct error_budget *error = &solution->error;
     if (problem->contact_count == 1 && problem->impulse_compression[0] > 0.0) {
-        report_single_impulse(problem, result);
+        report_single_impulse(result);
         return;
     }
     double largest = largest_share(problem, solution);
@@ -99,7 +126,6 @@ static void report_impulses(const struct problem *problem, const struct solution
             fmin(error->models.impulse[c] + error->states.model * scale, range);
         contact->impulse_error = fmin(contact->impulse_error_model + solved, range);
     }
-    report_velocity_errors(problem, result);
 }
 
 /* A sum, since errors of modes and steps are systematic. */
@@ -116,7 +142,8 @@ void total_report_model(const struct problem *problem, double model, double yiel
                         struct solve_result *result)
 {
     report_total(model, yield, range, result);
-    report_single_impulse(problem, result);
+    report_single_impulse(result);
+    report_velocity_errors(problem, result);
 }
 
 /* Of modes and steps, and of the states through them. */
@@ -177,5 +204,7 @@ void total_report(const struct problem *problem, const struct solution *solution
     report_total(error->models.restitution + error->states.model, error->models.yield,
                  outcome_range(problem, &solution->outcome), result);
     report_impulses(problem, solution, result);
+    report_tangential(problem, solution, result);
+    report_velocity_errors(problem, result);
     report_states(problem, solution, result);
 }

@@ -1,0 +1,174 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/core/solve/oblique.c and the rows of service/core/solve/assemble.c: a ball thrown
+ * on the paper's beam at an angle, against a program of its own (282 modes up to 200 kHz, steps of
+ * 50 ns, 2000 cells). */
+#include "physics/support.h"
+#include "solve/assemble.h"
+#include "solve/contact_model.h"
+#include "solve/formulation.h"
+#include "solve/oblique.h"
+#include "solve/outcome.h"
+
+struct bench {
+    struct lab *lab;
+    struct arena arena;
+    struct prepared_cache *cache;
+    struct problem *problem;
+    struct assembly assembly;
+};
+
+static struct bench *bench_create(void)
+{
+    struct bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    bench->lab = lab_create();
+    bench->cache = prepared_cache_create();
+    assert_non_null(bench->cache);
+    lab_add(bench->lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(bench->lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    return bench;
+}
+
+static void bench_free(struct bench *bench)
+{
+    prepared_cache_free(bench->cache);
+    arena_release(&bench->arena);
+    lab_free(bench->lab);
+    free(bench);
+}
+
+/* The ball comes down on the beam at `place` of its length with 0.3 m/s at an angle from the
+ * normal, its motion along the surface turned by `about` from the beam's axis. */
+static struct solve_request throw(double place, double degrees, double about, double mu)
+{
+    double angle = degrees * M_PI / 180.0;
+    struct solve_request request = strike(
+        sphere_spot("ball", 0.015), side_spot("beam", place - 0.5, 0.010, 0.0), 0.3 * cos(angle));
+    double r[9], axis[3] = {1.0, 0.0, 0.0}, along[3], across[3];
+    rotation_matrix(request.bodies[1].orientation, r);
+    rotate3(r, axis, along);
+    cross3(request.contacts[0].normal, along, across);
+    for (int i = 0; i < 3; i++) {
+        double t = cos(about) * along[i] + sin(about) * across[i];
+        request.bodies[0].velocity[i] += 0.3 * sin(angle) * t;
+        request.contacts[0].tangent[i] = t;
+    }
+    request.contacts[0].friction = mu;
+    return request;
+}
+
+/* That program has Timoshenko's beam whose section does not deform. */
+static void stiffen_sections(struct problem *problem)
+{
+    for (size_t r = 0; r < problem_rows(problem); r++)
+        for (size_t f = 0; f < BODY_MOST_FAMILIES; f++) {
+            const struct family_load *load = problem_load(problem, r, 1, f);
+            if (load)
+                ((struct family_load *)load)->bar.curvature = 0.0;
+        }
+}
+
+/* And one tangent where it slides across the axis: the second one moves with nothing. */
+static void leave_out_second(struct problem *problem)
+{
+    struct contact_tangent *second = problem->friction[0].sides[1];
+    for (size_t r = 0; r < 3; r++)
+        problem->row_w[3 * r + 2] = problem->row_w[6 + r] = r == 2 ? 1.0 : 0.0;
+    for (int which = 0; which < 2; which++)
+        for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
+            second[which].load.family[f].acts = false;
+}
+
+/* The outcome with all modes up to 200 kHz, half-spaces in the contact and short steps. */
+static struct impact_outcome run(struct bench *bench, const struct solve_request *request,
+                                 bool alone)
+{
+    struct fault fault = {""};
+    struct mode_choice choice = {.cut = 2.0 * M_PI * 200e3, .most = MODE_CHOICE_MOST};
+    struct impact_settings settings = {.accuracy = 1e-9, .horizon = 0.02, .max_work = 1e9};
+    struct impact_outcome outcome;
+    prepared_cache_use(bench->cache, bench->lab->set.revision);
+    bench->problem = problem_create(request, bench->cache, &bench->arena);
+    assert_non_null(bench->problem);
+    if (placement_find(bench->problem, &bench->lab->set, &fault))
+        fail_msg("%s", fault.text);
+    stiffen_sections(bench->problem);
+    if (alone)
+        leave_out_second(bench->problem);
+    assert_int_equal(contact_model_choose(bench->problem, NULL, &fault), PERCUSS_OK);
+    assert_true(assemble(&bench->assembly, bench->problem, &choice));
+    const struct scene *scene = &bench->assembly.scene;
+    assert_true(impact_create(&outcome, scene, &bench->arena));
+    assert_int_equal(impact_modal(scene, &settings, &bench->arena, &outcome), PERCUSS_OK);
+    return outcome;
+}
+
+/* mN s, rad/s, m/s; shares of the available energy; the first blow. */
+struct row {
+    double place, degrees, mu;
+    double normal, tangential, e, spin, slip, friction, vibration;
+    double first[2];
+};
+
+static void compare(struct bench *bench, const struct row *row, double about)
+{
+    struct solve_request request = throw(row->place, row->degrees, about, row->mu);
+    struct impact_outcome outcome = run(bench, &request, about != 0.0);
+    const struct track *track = &outcome.tracks[0];
+    const struct impact_energy *energy = &outcome.energy;
+    double inertia = bench->problem->bodies[0]->inertia[0];
+    /* the program's digits, and of what depends on the tangential force 1e-4 by its steps */
+    measured("normal impulse", 1e3 * track->impulse, row->normal, 1e-3);
+    measured_relative("tangential impulse", -1e3 * track->tangential[0], row->tangential, 1e-4);
+    measured("e", outcome_restitution(bench->problem, &outcome, 0), row->e, 2e-5);
+    measured_relative("spin", -track->tangential[0] * 0.015 / inertia, row->spin, 1e-4);
+    measured("slip", outcome.motion.gap_rate[1], row->slip, 2e-5);
+    measured("lost to friction", energy->friction / energy->available, row->friction, 1e-4);
+    measured("vibration", energy->vibration / energy->available, row->vibration, 1e-4);
+    measured("first blow", 1e3 * track->list[0].impulse, row->first[0], 1e-3);
+    measured("along the surface", -1e3 * track->list[0].impulse_tangential[0], row->first[1], 1e-3);
+    measured("closure", energy->closure / energy->available, 0.0, 1e-5);
+}
+
+static void along_the_axis(void **state)
+{
+    (void)state;
+    static const struct row rows[] = {
+        {0.5, 30, 0.1, 32.821, 3.2821, 0.29456, 4.9607, 0.04195, 0.0857, 0.8283, {24.951, 2.495}},
+        {0.5, 30, 0.3, 32.821, 4.6861, 0.29456, 7.0828, -0.00427, 0.0812, 0.8401, {24.951, 7.047}},
+        {0.5, 60, 0.1, 20.369, 2.0369, 0.39153, 3.0786, 0.19275, 0.2168, 0.4382, {14.884, 1.488}},
+        {0.5, 60, 0.3, 20.369, 6.1106, 0.39153, 9.2358, 0.05864, 0.4555, 0.4406, {14.884, 4.465}},
+        {0.31, 30, 0.1, 28.766, 2.8766, 0.19116, 4.3479, 0.05607, 0.0845, 0.8690, {24.951, 2.495}},
+        {0.31, 30, 0.3, 28.899, 5.8490, 0.19666, 8.8404, -0.04178, 0.0780, 0.8797, {24.951, 7.033}},
+        {0.31, 60, 0.3, 14.884, 4.4651, 0.06746, 6.7487, 0.11322, 0.3963, 0.5077, {14.884, 4.465}},
+    };
+    struct bench *bench = bench_create();
+    for (size_t i = 0; i < COUNT(rows); i++)
+        compare(bench, &rows[i], 0.0);
+    bench_free(bench);
+}
+
+/* It twists the beam and bends it in the other plane. */
+static void across_the_axis(void **state)
+{
+    (void)state;
+    static const struct row rows[] = {
+        {0.5, 30, 0.3, 32.821, 4.4719, 0.29456, 6.7591, -0.00776, 0.0161, 0.9045, {24.951, 5.034}},
+        {0.31, 30, 0.3, 28.702, 4.5127, 0.18850, 6.8207, -0.01150, 0.0186, 0.9486, {24.951, 5.034}},
+    };
+    struct bench *bench = bench_create();
+    for (size_t i = 0; i < COUNT(rows); i++)
+        compare(bench, &rows[i], 0.5 * M_PI);
+    bench_free(bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(along_the_axis),
+        cmocka_unit_test(across_the_axis),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
