@@ -161,6 +161,14 @@ static enum percuss_result check_pair(const struct percuss_pair *pair)
     if (!(pair->speed > 0.0) || !isfinite(pair->speed))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "speed: %g: a finite number of m/s > 0 is needed", pair->speed);
+    if (!(fabs(pair->angle) < M_PI_2))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "angle: %g rad: more than -pi/2 and less than pi/2 is needed, from the "
+                         "normal",
+                         pair->angle);
+    if (!isfinite(pair->spin))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "spin: %g rad/s: must be finite",
+                         pair->spin);
     const double at[] = {pair->at_a, pair->at_b};
     for (int i = 0; i < 2; i++)
         if (!(at[i] >= 0.0 && at[i] <= 1.0))
@@ -179,6 +187,34 @@ static enum percuss_result find_site(const struct percuss_body *body, double at,
     return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                      "%s: a body of shape '%s' has no default site; send a whole request", body->id,
                      body->shape);
+}
+
+/* The world axis that is least parallel to the normal, made normal to it. */
+static void first_tangent(const double normal[3], double tangent[3])
+{
+    int least = 0;
+    for (int i = 1; i < 3; i++)
+        least = fabs(normal[i]) < fabs(normal[least]) ? i : least;
+    double length = sqrt(1.0 - normal[least] * normal[least]);
+    for (int i = 0; i < 3; i++)
+        tangent[i] = ((i == least) - normal[least] * normal[i]) / length;
+}
+
+/* Leans A's flight, and turns A; a straight one is left as it is to the bit. */
+static void lean(const struct percuss_pair *pair, struct percuss_body_motion *a,
+                 struct percuss_contact *contact)
+{
+    double across[3];
+    contact->friction = pair->friction;
+    if (pair->angle == 0.0 && pair->spin == 0.0)
+        return;
+    first_tangent(contact->normal, contact->tangent);
+    cross(contact->tangent, contact->normal, across);
+    for (int i = 0; i < 3; i++) {
+        a->velocity[i] = pair->speed * (sin(pair->angle) * contact->tangent[i] -
+                                        cos(pair->angle) * contact->normal[i]);
+        a->angular_velocity[i] = pair->spin * across[i];
+    }
 }
 
 enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
@@ -219,5 +255,6 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
         a->position[i] = contact->point[i] - arm[i];
         a->velocity[i] = pair->speed * facing[i];
     }
+    lean(pair, a, contact);
     return PERCUSS_RESULT_OK;
 }

@@ -43,7 +43,7 @@ struct percuss_contact {
     double gap_acceleration; /* n.(a_A - a_B), m/s^2; negative presses */
     double friction;         /* coefficient; 0: the catalogue's for the two materials, if any */
     double tangent[3]; /* world; first tangential direction, made normal to `normal`; zero: the
-                          world axis least parallel to the normal is */
+                          world axis least parallel to the normal (x before y before z) */
 };
 
 struct percuss_options {

@@ -68,13 +68,18 @@ struct percuss_server_list {
     struct percuss_server *servers;
 };
 
-/* Two bodies at their default sites; A moves with `speed` (m/s, > 0) straight at B, else at rest.
- */
+/* Two bodies at their default sites; A moves with `speed` (m/s, > 0) straight at B, or askew, else
+ * at rest. Its flight leans towards the first tangent of the contact: the world axis that is least
+ * parallel to B's normal (x before y before z), made normal to it. */
 struct percuss_pair {
     const struct percuss_body *a, *b;
     double speed;
     double at_a, at_b; /* beams: where along the length the site is, 0 (end at -x) .. 1 (at +x) */
     const char *site_a, *site_b; /* the name of a site; NULL: the default one */
+    double angle; /* of A's flight from the normal, rad, -pi/2..pi/2; the speed is that along it */
+    double spin;  /* of A about tangent x normal, rad/s: at the contact that faces B, it adds to
+                     the slip along the tangent */
+    double friction; /* coefficient; 0: the catalogue's for the two materials, if any */
 };
 
 #ifdef __cplusplus
@@ -94,7 +99,8 @@ PERCUSS_API struct percuss_pair percuss_pair_default(const struct percuss_body *
  * makes the outward normal of its site -n (half a turn: about its x axis, or y for rods and
  * cylinders); a beam on a beam is also turned about n so that they cross at a right angle.
  * INVALID_ARGUMENT for a body that is NULL, a shape that it cannot place, a speed that is not
- * positive and finite or a fraction outside 0..1. Needs no client. */
+ * positive and finite, an angle at which A does not approach, a spin that is not finite or a
+ * fraction outside 0..1. Needs no client. */
 PERCUSS_API enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
                                                      struct percuss_request *request);
 

@@ -114,6 +114,9 @@ class Pair(ctypes.Structure):
         ("at_b", c_double),
         ("site_a", c_char_p),
         ("site_b", c_char_p),
+        ("angle", c_double),
+        ("spin", c_double),
+        ("friction", c_double),
     ]
 
 

@@ -267,6 +267,9 @@ def contact_pair(
     at: float | str | None = None,
     client: _Catalogued | None = None,
     bodies: Mapping[str, Body] | None = None,
+    angle: float = 0.0,
+    spin: float = 0.0,
+    friction: float = 0.0,
 ) -> Request:
     """A request in which two bodies touch at their default sites; a moves with `speed` (m/s, > 0, or a text with a
     unit: "300mm/s") straight at b, and all else is at rest. a, b: of client.bodies(), or their ids in the catalogue of
@@ -278,7 +281,14 @@ def contact_pair(
 
     Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at +x if
     that is free, else at -x; beam: +z side; mesh: its first site with a name. b stands unrotated at the origin, the normal is the outward
-    one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range; UnknownName, a
+    one of its site.
+
+    angle: rad, of a's flight from the normal, less than pi/2 in magnitude; `speed` is that along it. It leans towards the
+    contact's tangent: the world axis that is least parallel to the normal (x before y before z), made normal to it. spin:
+    rad/s, of a about tangent x normal, at the contact that faces b it adds to the slip along the tangent. friction: the
+    coefficient; 0: the catalogue's for the two materials, if any.
+
+    InvalidArgument for a shape that cannot be placed, or a number out of range; UnknownName, a
     KeyError, lists what there is.
     """
     names = [f"{name}: {one!r}" for name, one in (("a", a), ("b", b)) if isinstance(one, str)]
@@ -301,6 +311,7 @@ def contact_pair(
     value = _convert.number("speed", speed, "speed")
     pair = _server_abi.Pair(ctypes.pointer(first), ctypes.pointer(second), value, place_a, place_b)
     pair.site_a, pair.site_b = (None if name is None else name.encode() for name in (site_a, site_b))
+    pair.angle, pair.spin, pair.friction = angle, spin, friction
     request = _abi.Request()
     check(_abi.library.percuss_contact_pair(ctypes.byref(pair), ctypes.byref(request)))
     return read_scene(request)

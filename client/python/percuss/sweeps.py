@@ -129,10 +129,13 @@ def sweep(
     site_b: str | None = None,
     at: float | str | None = None,
     timeout: float = 10.0,
+    angle: float = 0.0,
+    spin: float = 0.0,
+    friction: float = 0.0,
 ) -> Sweep:
     """Asks for the impact of a on b at every speed, m/s or texts with units, > 0. Bodies by their ids in the catalogue, or as
     client.bodies() has them; of b and contact_model one or several: a curve for each. contact_model: None: that of
-    the options. at_a, at_b, site_a, site_b, at: as of contact_pair. timeout: s that one answer is waited for. Refused points
+    the options. at_a, at_b, site_a, site_b, at, angle, spin, friction: as of contact_pair. timeout: s that one answer is waited for. Refused points
     have their status and no numbers: see Sweep.raise_for_status."""
     options = options or Options()
     bodies_b = [b] if isinstance(b, (str, Body)) else list(b)
@@ -146,7 +149,11 @@ def sweep(
     curves = []
     for other in others:
         for model in map(ContactModel.of, models):
-            questions = [contact_pair(first, other, speed, at_a, at_b, site_a, site_b, at=at) for speed in values]
+            places = (at_a, at_b, site_a, site_b)
+            questions = [
+                contact_pair(first, other, speed, *places, at=at, angle=angle, spin=spin, friction=friction)
+                for speed in values
+            ]
             for question in questions:
                 question.options = replace(options, contact_model=model)
             curves.append(_curve(first, other, model, values, _ask(client, questions, timeout)))

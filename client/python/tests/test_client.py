@@ -230,6 +230,11 @@ class Announced(Beside):
                 pair = percuss.contact_pair(bodies["steel-sphere"], beam, 0.3, at_b=at)
                 self.assertEqual(round(pair.contacts[0].point[0], 12), x)
         self.assertEqual(hit("nose", meshed), 0.0)
+        # a flight that leans, with a spin
+        pair = percuss.contact_pair(bodies["steel-sphere"], beam, 0.3, angle=np.pi / 6, spin=2.0, friction=0.25)
+        np.testing.assert_allclose(pair.bodies[0].velocity, [0.15, 0.0, -0.3 * np.sqrt(0.75)], atol=1e-15)
+        np.testing.assert_allclose(pair.bodies[0].angular_velocity, [0.0, -2.0, 0.0], atol=1e-15)
+        self.assertEqual((pair.contacts[0].friction, pair.contacts[0].tangent.tolist()), (0.25, [1.0, 0.0, 0.0]))
         # the beam may be the body that moves
         pair = percuss.contact_pair(beam, bodies["steel-wall"], 0.3, at="tip")
         self.assertEqual(round(abs(pair.bodies[0].position[0]), 12), 0.5)

@@ -203,6 +203,89 @@ static void a_body_is_found_or_a_similar_one_named(void **state)
     assert_string_equal(percuss_error_text(), "id: 'concrete-wall': no such body among 2");
 }
 
+/* Slip of A's point against B's along a direction. */
+static double slip_along(const double direction[3])
+{
+    const struct percuss_body_motion *a = &request.bodies[0];
+    double arm[3], slip = 0.0;
+    for (int i = 0; i < 3; i++)
+        arm[i] = request.contacts[0].point[i] - a->position[i];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        double turning = a->angular_velocity[j] * arm[k] - a->angular_velocity[k] * arm[j];
+        slip += direction[i] * (a->velocity[i] + turning);
+    }
+    return slip;
+}
+
+/* A sphere at 0.3 m/s, 30 degrees from the normal of a beam along x: towards +x, and a spin adds.
+ */
+static void a_flight_leans(void **state)
+{
+    (void)state;
+    struct percuss_pair pair = percuss_pair_default(&shapes[0], &shapes[3]);
+    const double *normal = request.contacts[0].normal, *tangent = request.contacts[0].tangent;
+    pair.speed = 0.3;
+    pair.angle = M_PI / 6.0;
+    pair.friction = 0.2;
+    assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_OK);
+    expect_vector(normal, 0.0, 0.0, 1.0);
+    expect_vector(tangent, 1.0, 0.0, 0.0);
+    assert_true(request.contacts[0].friction == 0.2);
+    expect_vector(request.bodies[0].velocity, 0.15, 0.0, -0.3 * sqrt(0.75));
+    assert_true(fabs(slip_along(tangent) - 0.15) < tolerance);
+    /* a rolling sphere does not slip; turned the other way it slips twice as fast */
+    pair.spin = -10.0;
+    assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_OK);
+    assert_true(fabs(slip_along(tangent)) < tolerance);
+    pair.spin = 10.0;
+    assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_OK);
+    assert_true(fabs(slip_along(tangent) - 0.3) < tolerance);
+    assert_true(fabs(slip_along(normal) + 0.3 * sqrt(0.75)) < tolerance);
+}
+
+/* Whatever the normal, the tangent is a unit vector across it. */
+static void a_tangent_lies_across_any_normal(void **state)
+{
+    (void)state;
+    struct percuss_body mesh = {.id = "m", .shape = "mesh", .site_count = 1};
+    const double normals[][3] = {{0.6, 0.0, 0.8}, {-0.8, 0.6, 0.0}, {2.0 / 3, 2.0 / 3, -1.0 / 3}};
+    const double *tangent = request.contacts[0].tangent;
+    strcpy(mesh.sites[0].name, "s");
+    for (size_t i = 0; i < sizeof normals / sizeof *normals; i++) {
+        memcpy(mesh.sites[0].normal, normals[i], sizeof normals[i]);
+        struct percuss_pair pair = percuss_pair_default(&shapes[0], &mesh);
+        pair.speed = 1.0;
+        pair.angle = -1.0;
+        assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_OK);
+        double square = 0.0, along = 0.0;
+        for (int k = 0; k < 3; k++) {
+            square += tangent[k] * tangent[k];
+            along += tangent[k] * normals[i][k];
+        }
+        assert_true(fabs(square - 1.0) < tolerance && fabs(along) < tolerance);
+        assert_true(fabs(slip_along(tangent) - sin(-1.0)) < tolerance);
+        assert_true(fabs(slip_along(normals[i]) + cos(1.0)) < tolerance);
+    }
+}
+
+static void refuses_a_flight_that_misses(void **state)
+{
+    (void)state;
+    struct percuss_pair pair = percuss_pair_default(&shapes[0], &shapes[3]);
+    pair.speed = 0.3;
+    const double angles[] = {M_PI_2, -2.0, NAN};
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
+        pair.angle = angles[i];
+        assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_INVALID_ARGUMENT);
+        assert_non_null(strstr(percuss_error_text(), "angle: "));
+    }
+    pair.angle = 0.0;
+    pair.spin = INFINITY;
+    assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_string_equal(percuss_error_text(), "spin: inf rad/s: must be finite");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +294,9 @@ int main(void)
         cmocka_unit_test(places_the_sphere_of_the_contract),
         cmocka_unit_test(beams_cross_at_a_right_angle),
         cmocka_unit_test(refuses_what_it_cannot_place),
+        cmocka_unit_test(a_flight_leans),
+        cmocka_unit_test(a_tangent_lies_across_any_normal),
+        cmocka_unit_test(refuses_a_flight_that_misses),
         cmocka_unit_test(a_body_is_found_or_a_similar_one_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
