@@ -270,7 +270,16 @@ static void storage_free(struct storage_block *blocks)
 /* Replies. */
 
 CONVERTER(sub_impact, SubImpact, PERCUSS_SUB_IMPACT_FIELDS)
-CONVERTER(contact_result, ContactResult, PERCUSS_CONTACT_RESULT_FIELDS)
+
+static void convert_contact_result(const percuss_v1_ContactResult *from, struct storage *storage,
+                                   struct percuss_contact_result *to)
+{
+    PERCUSS_CONTACT_RESULT_FIELDS(PERCUSS_COPY, CONVERT)
+    /* a server that knows friction leaves the first undefined where there is none */
+    if (from->friction == 0.0 && from->tangential_restitution == 0.0)
+        to->tangential_restitution = to->restitution_kinematic = to->restitution_energetic = NAN;
+}
+
 CONVERTER(body_velocity, BodyVelocity, PERCUSS_BODY_VELOCITY_FIELDS)
 CONVERTER(body_state, BodyState, PERCUSS_BODY_STATE_FIELDS)
 CONVERTER(body_energy, BodyEnergy, PERCUSS_BODY_ENERGY_FIELDS)

@@ -387,7 +387,7 @@ static int prepare(struct run *run)
 
 int command_calibrate(int argc, char **argv, struct common *common)
 {
-    struct calibrate calibrate = {.common = common, .scene = scene_default(), .noise = 0.01};
+    struct calibrate calibrate = {.common = common, .scene = scene_straight(), .noise = 0.01};
     struct run run = {.calibrate = &calibrate};
     argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
     if (calibrate.scene.options.tolerance == 0.0)

@@ -442,7 +442,7 @@ static int run(const struct compare *compare, struct twins *twins, struct measur
 int command_compare(int argc, char **argv, struct common *common)
 {
     struct compare compare = {.common = common,
-                              .scene = scene_default(),
+                              .scene = scene_straight(),
                               .permutations = DEFAULT_PERMUTATIONS,
                               .seed = 1};
     struct measured_set set;

@@ -30,6 +30,7 @@ static const struct {
     {"contact-model", percuss_contact_model_name, PERCUSS_CONTACT_COUNT},
     {"method", percuss_method_name, PERCUSS_METHOD_COUNT},
     {"compliance", percuss_compliance_name, PERCUSS_COMPLIANCE_COUNT},
+    {"friction-law", percuss_friction_name, PERCUSS_FRICTION_COUNT},
     {"sampling", percuss_sampling_name, PERCUSS_SAMPLING_COUNT},
 };
 

@@ -12,7 +12,17 @@ static const struct {
     const char *name, *unit;
 } columns[] = {
     {"speed", "m/s"},
+    {"angle", "deg"},
     {"impulse", "N s"},
+    {"impulse_tangential_1", "N s"},
+    {"impulse_tangential_2", "N s"},
+    {"impulse_tangential_error", "N s"},
+    {"slip_before_1", "m/s"},
+    {"slip_before_2", "m/s"},
+    {"slip_after_1", "m/s"},
+    {"slip_after_2", "m/s"},
+    {"sub_impulse_tangential_1", "N s"},
+    {"sub_impulse_tangential_2", "N s"},
     {"first_impulse", "N s"},
     {"sub_impulse", "N s"},
     {"time", "s"},

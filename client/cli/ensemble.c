@@ -292,6 +292,16 @@ static bool show_progress(void *context, const struct percuss_ensemble_progress 
     return !interrupted;
 }
 
+/* The speed of the flight is that of the approach by a share. */
+static void scale_speed(struct percuss_input *input, double share)
+{
+    double *const numbers[] = {&input->first, &input->second, &input->lower, &input->upper};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        *numbers[i] *= share;
+    for (size_t i = 0; i < input->value_count; i++)
+        ((double *)input->values)[i] *= share; /* they are this program's */
+}
+
 /* Names the input that a refusal calls inputs[N]. */
 static void tell_input(const struct percuss_ensemble_request *request,
                        const struct percuss_ensemble_reply *reply)
@@ -346,9 +356,14 @@ static int run(struct ensemble *ensemble)
     struct scene_bodies bodies = {0};
     double speed = 0.0;
     /* the scene itself has the middle of the speeds */
-    for (size_t i = 0; i < ensemble->request->input_count; i++)
-        if (!strcmp(ensemble->request->inputs[i].name, "speed"))
-            speed = input_text_middle(&ensemble->request->inputs[i]);
+    for (size_t i = 0; i < ensemble->request->input_count; i++) {
+        struct percuss_input *input = &ensemble->request->inputs[i];
+        if (strcmp(input->name, "speed") != 0)
+            continue;
+        speed = input_text_middle(input);
+        if (ensemble->scene.angle != 0.0)
+            scale_speed(input, scene_normal_share(&ensemble->scene));
+    }
     if (!ensemble->common->json)
         scene_doubt_speed(speed);
     /* bodies of the catalogue, placed in contact */

@@ -31,15 +31,23 @@ static bool models_differ(const struct sweep_points *points)
     return false;
 }
 
+/* Along the axis: of angles that differ, else of the speeds. */
+static double place_of(const struct sweep_points *points, const struct sweep_row *row)
+{
+    return points->by_angle ? row->angle : row->speed;
+}
+
 static void write_curve(struct plot *plot, const struct sweep_points *points, size_t k)
 {
     char name[PLOT_NAME];
     snprintf(name, sizeof name, "curve_%zu", k + 1);
-    plot_table(plot, name, "speed,restitution,error,sub_impacts,significant");
+    plot_table(plot, name,
+               points->by_angle ? "angle,restitution,error,sub_impacts,significant"
+                                : "speed,restitution,error,sub_impacts,significant");
     for (unsigned i = 0; i < points->curves[k].done; i++) {
         const struct sweep_row *row = &points->curves[k].rows[i];
         if (row->sub_impacts > 0)
-            fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u\n", row->speed, row->restitution,
+            fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u\n", place_of(points, row), row->restitution,
                     isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
     }
 }
@@ -68,7 +76,7 @@ static struct axes take_axes(const struct sweep_points *points)
         for (unsigned i = 0; i < points->curves[k].done; i++) {
             const struct sweep_row *row = &points->curves[k].rows[i];
             double error = isnan(row->error) ? 0.0 : row->error;
-            plot_range_take(&axes.speed, row->speed);
+            plot_range_take(&axes.speed, place_of(points, row));
             plot_range_take(&axes.restitution, row->restitution - error);
             plot_range_take(&axes.restitution, row->restitution + error);
             plot_range_take(&axes.count, row->sub_impacts);
@@ -204,8 +212,8 @@ static void write_group(const struct plot *plot, const struct group *group, cons
     write_restitution(plot, group);
     fprintf(plot->script,
             "unset label 1\nset origin 0,%g\nset size 1,%g\nset format x '%%g'\n"
-            "set xlabel 'speed / (m/s)'\nset ytics 1\n",
-            LOWER, LOW);
+            "set xlabel '%s'\nset ytics 1\n",
+            LOWER, LOW, group->points->by_angle ? "angle / degrees" : "speed / (m/s)");
     plot_range_set(plot, "yrange", &axes->count, 0.0);
     fputs(left * plot->width > AXIS + 1 ? "" : "set ylabel 'sub-impacts'\n", plot->script);
     write_counts(plot, group);

@@ -86,6 +86,7 @@ static void spread_print(double deviation, const struct percuss_ensemble_reply *
 struct query_output {
     bool json, csv, units;
     bool several;                   /* each is told from the others by speed and contact model */
+    bool friction;                  /* CSV has columns of friction */
     unsigned count;                 /* printed so far */
     json_t *answers;                /* of several as JSON, until the end */
     const struct scene_text *scene; /* the question in words; NULL: a whole request */
@@ -103,24 +104,56 @@ static const char *body_of(const struct percuss_request *request, size_t contact
 }
 
 /* Prints the names of the columns on stdout, behind `lead`: others with a comma after each. */
-static void reply_csv_head(const char *lead, bool units)
+static void reply_csv_head(const char *lead, bool friction, bool units)
 {
     csv_head(stdout, lead, units);
     csv_head(stdout,
              "contact,a,b,restitution,error,impulse,sub_impacts,end_time,status,sub_impact,start,"
              "end,sub_impulse,peak_force,max_indentation,negligible",
              units);
+    if (friction)
+        csv_head(stdout,
+                 ",friction,impulse_tangential_1,impulse_tangential_2,impulse_tangential_error,"
+                 "slip_before_1,slip_before_2,slip_after_1,slip_after_2,tangential_restitution,"
+                 "restitution_kinematic,friction_state,sub_impulse_tangential_1,"
+                 "sub_impulse_tangential_2,sub_friction_state",
+                 units);
     putchar('\n');
+}
+
+/* The columns of friction. */
+static void print_csv_friction(const struct percuss_contact_result *contact,
+                               const struct percuss_sub_impact *sub)
+{
+    const double numbers[] = {contact->friction,
+                              contact->impulse_tangential[0],
+                              contact->impulse_tangential[1],
+                              contact->impulse_tangential_error,
+                              contact->slip_before[0],
+                              contact->slip_before[1],
+                              contact->slip_after[0],
+                              contact->slip_after[1],
+                              contact->tangential_restitution,
+                              contact->restitution_kinematic};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        printf(",%.17g", numbers[i]);
+    printf(",%s,%.17g,%.17g,%s", percuss_friction_state_name(contact->friction_state),
+           sub->impulse_tangential[0], sub->impulse_tangential[1],
+           percuss_friction_state_name(sub->friction_state));
 }
 
 /* Prints a line for each sub-impact that is listed, with its contact's columns before it (a contact
  * without one has a line too), on stdout, behind `lead`; message and warnings to stderr. */
-static void reply_csv_print(const char *lead, const struct percuss_request *request,
+static void reply_csv_print(const char *lead, bool friction, const struct percuss_request *request,
                             const struct percuss_reply *reply)
 {
     /* only its numbers are printed of one that is not there */
-    const struct percuss_sub_impact none = {
-        .start = NAN, .end = NAN, .impulse = NAN, .peak_force = NAN, .max_indentation = NAN};
+    const struct percuss_sub_impact none = {.start = NAN,
+                                            .end = NAN,
+                                            .impulse = NAN,
+                                            .peak_force = NAN,
+                                            .max_indentation = NAN,
+                                            .impulse_tangential = {NAN, NAN}};
     for (size_t c = 0; c < reply->contact_count; c++) {
         const struct percuss_contact_result *contact = &reply->contacts[c];
         for (uint32_t i = 0; i == 0 || i < contact->sub_impacts_listed; i++) {
@@ -133,8 +166,11 @@ static void reply_csv_print(const char *lead, const struct percuss_request *requ
             printf(",%.17g,%.17g,%.17g,%u,%.17g,%s", contact->restitution,
                    reply_restitution_error(reply), contact->impulse, contact->sub_impact_count,
                    contact->end_time, percuss_status_name(reply->status));
-            printf(",%u,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", there ? i + 1 : 0, sub->start,
-                   sub->end, sub->impulse, sub->peak_force, sub->max_indentation, sub->negligible);
+            printf(",%u,%.17g,%.17g,%.17g,%.17g,%.17g,%d", there ? i + 1 : 0, sub->start, sub->end,
+                   sub->impulse, sub->peak_force, sub->max_indentation, sub->negligible);
+            if (friction)
+                print_csv_friction(contact, sub);
+            putchar('\n');
         }
     }
     reply_table_tell(reply);
@@ -161,15 +197,19 @@ static void add_json(struct query_output *output, const struct impact_run *run, 
     json_array_append_new(output->answers, answer);
 }
 
-static void add_csv(const struct query_output *output, const struct impact_run *run, double speed)
+static void add_csv(struct query_output *output, const struct impact_run *run, double speed)
 {
     char lead[64] = "";
     if (output->several)
         snprintf(lead, sizeof lead, "%.17g,%s,", speed,
                  percuss_contact_model_name(run->request.options.contact_model));
-    if (output->count == 0)
-        reply_csv_head(output->several ? "speed,contact_model," : "", output->units);
-    reply_csv_print(lead, &run->request, &run->reply);
+    /* columns as the first answer has them, or the flags */
+    if (output->count == 0) {
+        output->friction = output->friction || reply_has_friction(&run->reply);
+        reply_csv_head(output->several ? "speed,contact_model," : "", output->friction,
+                       output->units);
+    }
+    reply_csv_print(lead, output->friction, &run->request, &run->reply);
 }
 
 static void add_table(const struct query_output *output, const struct impact_run *run, double speed)
@@ -382,9 +422,10 @@ const struct argp query_argp = {
     .options = options,
     .parser = parse,
     .doc =
-        "Asks for one impact: A moves at speed V straight at B, which is at rest, and hits it at "
-        "the bodies' default sites; or whatever a JSON request says.\v"
-        "Example: percuss query --a steel-sphere --b al-beam --speed 0.3 --at 0.25",
+        "Asks for one impact: A moves at speed V straight at B, or at an angle, which is at rest, "
+        "and hits it at the bodies' default sites; or whatever a JSON request says.\v"
+        "Examples: percuss query --a steel-sphere --b al-beam --speed 0.3 --at 0.25\n"
+        "percuss query --a steel-sphere --b al-beam --speed 0.3 --angle 30 --friction 0.3",
     .children = measured_scene_children,
 };
 
@@ -406,6 +447,7 @@ static bool begin(struct asking *asking, const struct query *query)
     asking->output = (struct query_output){.json = query->common->json,
                                            .csv = query->csv,
                                            .units = query->common->units,
+                                           .friction = query->scene.askew,
                                            .several = asking->count > 1};
     asking->runs = calloc(asking->count, sizeof *asking->runs);
     return asking->runs != NULL;
@@ -448,9 +490,10 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
         return complain_result(result);
     /* the spread of the answer by that of the speed */
     bool spreads = query->speed_sigma > 0.0 && run->reply.contact_count > 0;
+    const double share = scene_normal_share(&query->scene);
     if (spreads)
-        result =
-            spread_ask(asking->client, &run->request, speed, query->speed_sigma, timeout, &spread);
+        result = spread_ask(asking->client, &run->request, share * speed,
+                            share * query->speed_sigma, timeout, &spread);
     waiting_end();
     query_output_add(&asking->output, run, speed, spreads && !result ? &spread : NULL);
     if (spreads && !result && !query->common->json)

@@ -36,11 +36,23 @@ static void cross(const double a[3], const double b[3], double result[3])
         result[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* How fast A approaches B at the contact, m/s: -n (v_A - v_B). */
-static double approach_of(const struct percuss_request *request,
-                          const struct percuss_contact *contact)
+bool reply_has_friction(const struct percuss_reply *reply)
 {
-    double rate = 0.0;
+    bool has = false;
+    for (size_t i = 0; i < reply->contact_count; i++)
+        has = has || reply->contacts[i].friction > 0.0;
+    return has;
+}
+
+/* How fast A's point approaches B's along the normal, and how fast it moves along the surface. */
+struct meeting {
+    double approach, slip; /* m/s */
+};
+
+static struct meeting meeting_of(const struct percuss_request *request,
+                                 const struct percuss_contact *contact)
+{
+    double relative[3] = {0.0}, rate = 0.0, square = 0.0;
     for (int which = 0; which < 2; which++) {
         const struct percuss_body_motion *body =
             &request->bodies[which == 0 ? contact->a : contact->b];
@@ -49,11 +61,17 @@ static double approach_of(const struct percuss_request *request,
             arm[i] = contact->point[i] - body->position[i];
         cross(body->angular_velocity, arm, turning);
         for (int i = 0; i < 3; i++)
-            rate +=
-                (which == 0 ? 1.0 : -1.0) * contact->normal[i] * (body->velocity[i] + turning[i]);
+            relative[i] += (which == 0 ? 1.0 : -1.0) * (body->velocity[i] + turning[i]);
     }
-    return -rate;
+    for (int i = 0; i < 3; i++)
+        rate += contact->normal[i] * relative[i];
+    for (int i = 0; i < 3; i++)
+        square += pow(relative[i] - rate * contact->normal[i], 2.0);
+    return (struct meeting){-rate, sqrt(square)};
 }
+
+/* Share of the approach below which a slip is rounding. */
+static const double NO_SLIP = 1e-9;
 
 /* The question: speed, place, ends and materials. */
 static void print_question(const struct percuss_request *request, size_t i,
@@ -63,13 +81,51 @@ static void print_question(const struct percuss_request *request, size_t i,
     if (i >= request->contact_count || contact->a >= request->body_count ||
         contact->b >= request->body_count)
         return;
-    printf("  impact       %.6g m/s", approach_of(request, contact));
+    const struct meeting meeting = meeting_of(request, contact);
+    printf("  impact       %.6g m/s", meeting.approach);
     if (!scene)
-        printf(" at (%.4g, %.4g, %.4g) m\n", contact->point[0], contact->point[1],
-               contact->point[2]);
+        printf(" at (%.4g, %.4g, %.4g) m", contact->point[0], contact->point[1], contact->point[2]);
     else
-        printf("%s%s\n  bodies       %s\n", scene->place[0] ? ", " : "", scene->place,
-               scene->bodies);
+        printf("%s%s", scene->place[0] ? ", " : "", scene->place);
+    if (meeting.slip > NO_SLIP * fabs(meeting.approach))
+        printf(", sliding at %.6g m/s", meeting.slip);
+    putchar('\n');
+    if (scene)
+        printf("  bodies       %s\n", scene->bodies);
+}
+
+/* A pair along both tangents; one number where there is nothing along the second. */
+struct pair_text {
+    char text[48];
+};
+
+static struct pair_text pair_of(const double pair[2])
+{
+    struct pair_text text;
+    snprintf(text.text, sizeof text.text, pair[1] == 0.0 ? "%.6g" : "(%.6g, %.6g)", pair[0],
+             pair[1]);
+    return text;
+}
+
+/* What friction does in a contact that has it. */
+static void print_friction(const struct percuss_contact_result *contact)
+{
+    if (!(contact->friction > 0.0))
+        return;
+    printf("  friction     %g, %s\n", contact->friction,
+           percuss_friction_state_name(contact->friction_state));
+    printf("  tangential   %s N s", pair_of(contact->impulse_tangential).text);
+    if (contact->impulse_tangential_error > 0.0)
+        printf(" +- %.2g", contact->impulse_tangential_error);
+    printf("\n  slip         %s m/s, after it %s m/s", pair_of(contact->slip_before).text,
+           pair_of(contact->slip_after).text);
+    if (!isnan(contact->tangential_restitution))
+        printf("  (tangential restitution %.6g)", contact->tangential_restitution);
+    putchar('\n');
+    /* the restitution by impulses may be above 1 where friction turns a body */
+    if (!isnan(contact->restitution_kinematic))
+        printf("  kinematic    %.6g is the restitution by the rates of the gap\n",
+               contact->restitution_kinematic);
 }
 
 /* Of a longer list the negligible ones are left out. */
@@ -83,15 +139,20 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
                           : 0;
     if (contact->sub_impacts_listed == 0)
         return;
-    printf("\n  %4s %10s %10s %13s %8s %10s %12s\n", "#", "start/ms", "length/us", "impulse/N s",
+    printf("\n  %4s %10s %10s %13s %8s %10s %12s", "#", "start/ms", "length/us", "impulse/N s",
            "share/%", "peak/N", "indent./um");
+    printf(contact->friction > 0.0 ? " %15s  %s\n" : "\n", "tangential/N s", "slip");
     for (uint32_t i = 0; i < contact->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &contact->sub_impacts[i];
         if (hidden && sub->negligible)
             continue;
-        printf("  %4u %10.4f %10.2f %13.6g %8.2f %10.4g %12.4g%s\n", i + 1, 1e3 * sub->start,
+        printf("  %4u %10.4f %10.2f %13.6g %8.2f %10.4g %12.4g", i + 1, 1e3 * sub->start,
                1e6 * (sub->end - sub->start), sub->impulse, 100.0 * sub->impulse / contact->impulse,
-               sub->peak_force, 1e6 * sub->max_indentation, sub->negligible ? "  negligible" : "");
+               sub->peak_force, 1e6 * sub->max_indentation);
+        if (contact->friction > 0.0)
+            printf(" %15s  %s", pair_of(sub->impulse_tangential).text,
+                   percuss_friction_state_name(sub->friction_state));
+        puts(sub->negligible ? "  negligible" : "");
     }
     /* the hidden sub-impacts */
     if (hidden)
@@ -132,6 +193,7 @@ static void print_contact(const struct percuss_reply *reply,
     if (reply->contact_count > 1 && contact->impulse_error > 0.0)
         printf(" +- %.2g", contact->impulse_error);
     printf("  (%.6g N s stops the approach)\n", contact->impulse_compression);
+    print_friction(contact);
     printf("  duration     %.4g ms (%s)\n", 1e3 * contact->end_time,
            percuss_end_reason_name(reply->end_reason));
     printf("  sub-impacts  %u", contact->sub_impact_count);
@@ -159,6 +221,7 @@ static void print_energy(const struct percuss_energy *energy)
     }
     print_share("damping", energy->damping, energy->available);
     print_share("plastic", energy->plastic, energy->available);
+    print_share("friction", energy->friction, energy->available);
     print_share("stored", energy->stored, energy->available);
     printf(" (closure %.0e)\n", energy->closure / energy->available);
 }

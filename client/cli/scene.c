@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "column.h"
@@ -23,7 +24,11 @@ enum scene_key {
     KEY_METHOD,
     KEY_COMPLIANCE,
     KEY_AT_A,
-    KEY_AT_B
+    KEY_AT_B,
+    KEY_FRICTION,
+    KEY_FRICTION_LAW,
+    KEY_ANGLE,
+    KEY_SPIN
 };
 
 static const struct argp_option scene_options[] = {
@@ -35,6 +40,21 @@ static const struct argp_option scene_options[] = {
      10},
     {"at-a", KEY_AT_A, "NAME", 0, "place of the impact on the moving body: a site's name", 10},
     {"at-b", KEY_AT_B, "NAME", 0, "the same on the body at rest (default: its first site)", 10},
+    {"friction", KEY_FRICTION, "MU", 0,
+     "coefficient of friction, 0 to 10 (default: the catalogue's for the two materials, none if it "
+     "states none); 0: none",
+     11},
+    {"friction-law", KEY_FRICTION_LAW, "L", 0,
+     "micro-slip (default), plain or none, where there is a coefficient", 11},
+    {"angle", KEY_ANGLE, "DEG", 0,
+     "angle of A's flight from the normal, degrees; --speed is along the flight: its part V sin "
+     "DEG "
+     "is along the first tangent of the surface, of a beam its axis (sweep: LO:HI:N, too)",
+     11},
+    {"spin", KEY_SPIN, "W", 0,
+     "spin of A, rad/s, about the axis first tangent x normal: a positive one adds to the slip of "
+     "A's surface along the tangent, one of -V sin DEG / radius lets a sphere roll",
+     11},
     {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
     {"horizon", KEY_HORIZON, "T", 0,
      "s, or with a unit: give up watching the bodies after this time", 20},
@@ -154,6 +174,107 @@ void scene_check_single(const struct scene *scene, struct argp_state *state)
         argp_error(state, "--contact-model: one is needed, not %zu", scene->model_count);
 }
 
+/* A number that may bear the unit in which it is counted anyway. */
+static bool read_counted(const char *text, size_t length, const char *unit, double *number,
+                         struct quantity_fault *fault)
+{
+    size_t tail = strlen(unit);
+    if (length > tail && !strncmp(text + length - tail, unit, tail))
+        length -= tail;
+    while (length > 0 && text[length - 1] == ' ')
+        length--;
+    return quantity_read(text, length, QUANTITY_NUMBER, number, fault);
+}
+
+/* At more than a right angle A flies away. */
+static const double LEAST_ANGLE = -90.0, MOST_ANGLE = 90.0;
+enum { MOST_ANGLES = 1000000 };
+
+/* LO:HI:N, of which only a sweep makes something. */
+static bool read_angles(const char *text, struct scene *scene, struct quantity_fault *fault)
+{
+    const char *high = strchr(text, ':'), *count = high ? strchr(high + 1, ':') : NULL;
+    if (!count || strspn(count + 1, "0123456789") != strlen(count + 1) || strlen(count + 1) > 7)
+        return false;
+    scene->angle_list = true;
+    scene->angle_count = (unsigned)strtoul(count + 1, NULL, 10);
+    return scene->angle_count >= 1 && scene->angle_count <= MOST_ANGLES &&
+           read_counted(text, (size_t)(high - text), "deg", &scene->angle, fault) &&
+           read_counted(high + 1, (size_t)(count - high - 1), "deg", &scene->last_angle, fault) &&
+           scene->angle <= scene->last_angle;
+}
+
+/* Ends the process where impacts that were measured are compared. */
+static void check_askew(const char *option, const char *text, const struct scene *scene,
+                        struct argp_state *state)
+{
+    if (scene->angles == ANGLES_NONE)
+        argp_error(state, "--%s: '%s': only straight impacts are compared with measured ones",
+                   option, text);
+}
+
+static void parse_angle(const char *text, struct scene *scene, struct argp_state *state)
+{
+    struct quantity_fault fault;
+    bool swept = scene->angles == ANGLES_SWEPT;
+    bool several = swept && strchr(text, ':');
+    bool good = several ? read_angles(text, scene, &fault)
+                        : read_counted(text, strlen(text), "deg", &scene->angle, &fault);
+    check_askew("angle", text, scene, state);
+    if (!several) {
+        scene->last_angle = scene->angle;
+        scene->angle_count = 1;
+        scene->angle_list = false;
+    }
+    if (!good || !(scene->angle > LEAST_ANGLE && scene->last_angle < MOST_ANGLE))
+        argp_error(state,
+                   "--angle: '%s': degrees from the normal, more than %g and less than %g, are "
+                   "needed%s",
+                   text, LEAST_ANGLE, MOST_ANGLE, swept ? ", or LO:HI:N, for example 0:80:9" : "");
+}
+
+static void parse_spin(const char *text, struct scene *scene, struct argp_state *state)
+{
+    struct quantity_fault fault;
+    check_askew("spin", text, scene, state);
+    if (!read_counted(text, strlen(text), "rad/s", &scene->spin, &fault))
+        argp_error(state, "--spin: '%s': a number of rad/s is needed", text);
+}
+
+static void parse_friction(const char *text, struct scene *scene, struct argp_state *state)
+{
+    struct quantity_fault fault;
+    const double most = 10.0;
+    if (!quantity_read(text, strlen(text), QUANTITY_NUMBER, &scene->friction, &fault) ||
+        !(scene->friction >= 0.0 && scene->friction <= most))
+        argp_error(state, "--friction: '%s': a coefficient of 0 to %g is needed", text, most);
+}
+
+/* Options of friction and of impacts that are not straight. */
+static error_t parse_askew(int key, char *text, struct argp_state *state)
+{
+    struct scene *scene = state->input;
+    switch (key) {
+    case KEY_FRICTION:
+        parse_friction(text, scene, state);
+        break;
+    case KEY_FRICTION_LAW:
+        scene->options.friction = parse_choice("friction-law", text, PERCUSS_FRICTION_COUNT,
+                                               percuss_friction_name, state);
+        break;
+    case KEY_ANGLE:
+        parse_angle(text, scene, state);
+        break;
+    case KEY_SPIN:
+        parse_spin(text, scene, state);
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    scene->given = scene->askew = true;
+    return 0;
+}
+
 static error_t parse_scene(int key, char *text, struct argp_state *state)
 {
     struct scene *scene = state->input;
@@ -193,8 +314,13 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
         options->compliance = parse_choice("compliance", text, PERCUSS_COMPLIANCE_COUNT,
                                            percuss_compliance_name, state);
         break;
+    /* all are read: without a coefficient there is no law */
+    case ARGP_KEY_END:
+        if (scene->friction == 0.0)
+            options->friction = PERCUSS_FRICTION_NONE;
+        return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return parse_askew(key, text, state);
     }
     scene->given = true;
     return 0;
@@ -204,7 +330,15 @@ const struct argp scene_argp = {.options = scene_options, .parser = parse_scene}
 
 struct scene scene_default(void)
 {
-    return (struct scene){.at = 0.5, .at_length = NAN, .options = percuss_options_default()};
+    return (struct scene){
+        .at = 0.5, .at_length = NAN, .friction = NAN, .options = percuss_options_default()};
+}
+
+struct scene scene_straight(void)
+{
+    struct scene scene = scene_default();
+    scene.angles = ANGLES_NONE;
+    return scene;
 }
 
 /* The body of that id, or the stranger made to look like a point. */
@@ -256,6 +390,19 @@ static int place_end(enum scene_place place, const struct percuss_body *beam, do
     return EXIT_ANSWERED;
 }
 
+/* As the flags say how A meets B. */
+static void lean_pair(const struct scene *scene, struct percuss_pair *pair)
+{
+    pair->angle = scene->angle * (M_PI / 180.0);
+    pair->spin = scene->spin;
+    pair->friction = scene->friction > 0.0 ? scene->friction : 0.0;
+}
+
+double scene_normal_share(const struct scene *scene)
+{
+    return cos(scene->angle * (M_PI / 180.0));
+}
+
 int scene_find_bodies(const struct scene *scene, const struct common *common,
                       struct percuss_client *client, struct scene_bodies *bodies)
 {
@@ -268,6 +415,7 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
                              find_or_invent(&bodies->list, scene->b, &bodies->strangers[1]));
     bodies->pair.site_a = scene->at_a;
     bodies->pair.site_b = scene->at_b;
+    lean_pair(scene, &bodies->pair);
     /* of two beams the one at rest is hit at S */
     bool b_is_beam = !strcmp(bodies->pair.b->shape, "beam");
     if (scene->at_given && !b_is_beam && strcmp(bodies->pair.a->shape, "beam") != 0)
@@ -370,6 +518,8 @@ struct scene_text scene_describe(const struct scene *scene, const struct scene_b
     const int length = (int)strcspn(text.place, "(");
     if (length > 0)
         ADD(text.title, ", %.*s", text.place[length] ? length - 1 : length, text.place);
+    if (scene->angle_count == 1 && scene->angle != 0.0)
+        ADD(text.title, ", at %g degrees", scene->angle);
     return text;
 }
 
@@ -378,6 +528,7 @@ int scene_request(const struct scene *scene, const struct scene_bodies *bodies, 
 {
     struct percuss_pair pair = bodies->pair;
     pair.speed = speed;
+    lean_pair(scene, &pair);
     enum percuss_result result = percuss_contact_pair(&pair, request);
     request->options = scene->options;
     return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);

@@ -12,6 +12,9 @@ enum { SCENE_CHOICES = 8 };
 /* A place along a beam by its name; `at` and `at_length` say all others. */
 enum scene_place { PLACE_NUMBER, PLACE_TIP, PLACE_ROOT };
 
+/* How many angles of attack a command takes: one, one or LO:HI:N, or none. */
+enum scene_angles { ANGLES_ONE, ANGLES_SWEPT, ANGLES_NONE };
+
 struct scene {
     const char *a, *b; /* NULL: not given; b: the last one given */
     /* all bodies B and contact models given, for the commands that take several */
@@ -21,8 +24,15 @@ struct scene {
     double at, at_length; /* along a beam: fraction, or m from its end at -x (NAN: not given) */
     enum scene_place place;
     bool at_given;
-    const char *at_a, *at_b; /* names of sites; NULL: not given */
-    bool given;              /* any flag */
+    const char *at_a, *at_b;  /* names of sites; NULL: not given */
+    enum scene_angles angles; /* set before flags are parsed */
+    double angle, last_angle; /* of A's flight from the normal, degrees; the last of several */
+    unsigned angle_count;     /* 0: not given */
+    bool angle_list;          /* given as LO:HI:N */
+    double spin;              /* rad/s */
+    double friction;          /* coefficient; NAN: not given */
+    bool askew;               /* any flag of friction, angle or spin */
+    bool given;               /* any flag */
     struct percuss_options options;
 };
 
@@ -52,8 +62,9 @@ void scene_check_one_b(const struct scene *scene, struct argp_state *state);
  * given more than once. */
 void scene_check_single(const struct scene *scene, struct argp_state *state);
 
-/* Nothing given, defaults. */
+/* Nothing given, defaults; the second takes no --angle and no --spin. */
 struct scene scene_default(void);
+struct scene scene_straight(void);
 
 /* Where the scene's bodies come from: the server's catalogue. A body that it does not list is
  * placed as a point, so that the refusal is the server's. */
@@ -68,7 +79,10 @@ struct scene_bodies {
 int scene_find_bodies(const struct scene *scene, const struct common *common,
                       struct percuss_client *client, struct scene_bodies *bodies);
 
-/* The request at that speed. Exit code; complains. */
+/* Share of the speed that is along the normal. */
+double scene_normal_share(const struct scene *scene);
+
+/* The request at that speed, which is along A's flight. Exit code; complains. */
 int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,
                   struct percuss_request *request);
 

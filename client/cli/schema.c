@@ -75,6 +75,7 @@ static json_t *point_schema(void)
 {
     static const struct member members[] = {
         VALUE("speed", "number", "m/s"),
+        VALUE("angle", "number", "degrees, of the flight from the normal"),
         VALUE("restitution", "number", ""),
         VALUE("error", "number", "estimated, of the restitution"),
         VALUE("impulse", "number", "N s"),
@@ -110,7 +111,7 @@ static json_t *curve_schema(void)
     static const struct member members[] = {
         VALUE("b", "string", "body B"),
         VALUE("contact_model", "string", "asked for"),
-        LIST("points", "one a speed", point_schema),
+        LIST("points", "one a speed, or angle", point_schema),
     };
     return OBJECT(members);
 }
@@ -119,7 +120,7 @@ static json_t *curve_schema(void)
 static json_t *sweep_schema(void)
 {
     static const struct member members[] = {
-        LIST("points", "one a speed, of the only curve", point_schema),
+        LIST("points", "one a speed, or angle, of the only curve", point_schema),
         LIST("curves", "where several bodies or models are asked for", curve_schema),
         WARNINGS,
     };

@@ -31,7 +31,7 @@ struct sweep_run {
     struct percuss_client *client;
     struct scene scene; /* of this curve */
     struct scene_bodies bodies;
-    const double *speeds;
+    const double *speeds, *angles;
     unsigned count;
     unsigned first; /* points before it are known already */
     sweep_run_ready *ready;
@@ -76,10 +76,18 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+/* The question of point i. Exit code; complains. */
+static int make_request(const struct sweep_run *run, unsigned i, struct percuss_request *request)
+{
+    struct scene scene = run->scene;
+    scene.angle = run->angles[i];
+    return scene_request(&scene, &run->bodies, run->speeds[i], request);
+}
+
 static int send_point(struct sweep_run *run, unsigned i)
 {
     struct percuss_request request;
-    int code = scene_request(&run->scene, &run->bodies, run->speeds[i], &request);
+    int code = make_request(run, i, &request);
     if (code != EXIT_ANSWERED)
         return code;
     enum percuss_result result = percuss_submit(run->client, &request, &run->sequences[i]);
@@ -185,7 +193,7 @@ static int sweep_run_again(struct sweep_run *run, unsigned i, struct percuss_rep
     struct percuss_request request;
     int code = scene_find_bodies(&run->scene, run->common, run->client, &run->bodies);
     if (code == EXIT_ANSWERED)
-        code = scene_request(&run->scene, &run->bodies, run->speeds[i], &request);
+        code = make_request(run, i, &request);
     percuss_body_list_free(&run->bodies.list);
     if (code != EXIT_ANSWERED)
         return code;
@@ -253,10 +261,20 @@ static const char *status_of(const char *name)
     return NULL;
 }
 
+/* The first, none, where there is no column of it. */
+static const char *friction_state_of(const char *name)
+{
+    for (unsigned state = 0; state < PERCUSS_FRICTION_STATE_COUNT; state++)
+        if (!*name || strcmp(percuss_friction_state_name(state), name) == 0)
+            return percuss_friction_state_name(state);
+    return NULL;
+}
+
 /* The row in the line, if it is one: as it would be written. */
 static bool parse_row(const struct reading *reading, size_t k, unsigned i, struct sweep_row *row)
 {
-    char status[32] = "";
+    char status[32] = "", slip[32] = "";
+    int end = 0;
     const char *text = reading->line;
     for (int skipped = 0; reading->points->curve_count > 1 && skipped < 2; skipped++) {
         text = strchr(text, ',');
@@ -264,12 +282,20 @@ static bool parse_row(const struct reading *reading, size_t k, unsigned i, struc
             return false;
         text++;
     }
-    if (sscanf(text, "%lf,%lf,%lf,%lf,%u,%u,%lf,%31[^,]", &row->speed, &row->restitution,
+    if (sscanf(text, "%lf,%lf,%lf,%lf,%u,%u,%lf,%31[^,]%n", &row->speed, &row->restitution,
                &row->error, &row->impulse, &row->sub_impacts, &row->significant, &row->end_time,
-               status) != 8)
+               status, &end) != 8)
+        return false;
+    if (reading->points->askew &&
+        sscanf(text + end, ",%lf,%lf,%lf,%lf,%lf,%lf,%lf,%31[^,]", &row->angle,
+               &row->impulse_tangential[0], &row->impulse_tangential[1], &row->slip_after[0],
+               &row->slip_after[1], &row->tangential_restitution, &row->restitution_kinematic,
+               slip) != 8)
         return false;
     row->status = status_of(status);
-    if (!row->status || row->speed != reading->points->speeds[i])
+    row->friction_state = friction_state_of(slip);
+    if (!row->status || !row->friction_state || row->speed != reading->points->speeds[i] ||
+        (reading->points->askew && row->angle != reading->points->angles[i]))
         return false;
     char *written = line_of(reading->points, k, i, false);
     bool same = written && strcmp(written, reading->line) == 0;
@@ -338,25 +364,37 @@ static int sweep_file_open(const char *name, const struct sweep_points *points,
     return EXIT_ANSWERED;
 }
 
+/* Which point it is, by what differs. */
+struct place_text {
+    char text[48];
+};
+
+static struct place_text place_of(const struct sweep_points *points, unsigned i)
+{
+    struct place_text place;
+    snprintf(place.text, sizeof place.text, points->by_angle ? "%g degrees" : "%g m/s",
+             points->by_angle ? points->angles[i] : points->speeds[i]);
+    return place;
+}
+
 /* Whether row i of curve k, asked for again, is to the last bit that of the file. False: the file
  * has the answers to another question; complains. */
 static bool sweep_file_agrees(const char *name, const struct sweep_points *points, size_t k,
                               unsigned i, const struct percuss_reply *again)
 {
-    struct sweep_row row = sweep_row_of(again, points->speeds[i]);
+    struct sweep_row row = sweep_row_of(points, i, again);
     struct sweep_curve curve = points->curves[k];
     struct sweep_points other = *points;
-    const double speed = points->speeds[i];
+    struct place_text place = place_of(points, i);
     /* the same curve with the row alone */
     curve.rows = &row;
     other.curves = &curve;
     char *held = line_of(points, k, i, false), *fresh = line_of(&other, 0, 0, false);
     bool same = held && fresh && strcmp(held, fresh) == 0;
     if (!same)
-        complain(
-            "--resume: %s: its row at %g m/s, '%s', is '%s' now: it has the answers to another "
-            "question, or of another catalogue",
-            name, speed, held ? held : "", fresh ? fresh : "");
+        complain("--resume: %s: its row at %s, '%s', is '%s' now: it has the answers to another "
+                 "question, or of another catalogue",
+                 name, place.text, held ? held : "", fresh ? fresh : "");
     free(held);
     free(fresh);
     return same;
@@ -370,7 +408,9 @@ struct sweep {
     struct common *common;
     struct scene scene;
     double low, high;
-    unsigned count; /* 0: no --speed */
+    unsigned speed_count;   /* 0: no --speed */
+    const char *speed_text; /* of one speed alone */
+    unsigned count;         /* points */
     bool csv;
     const char *resume; /* file that is gone on with; NULL: none */
     struct plot_output plot;
@@ -379,7 +419,9 @@ struct sweep {
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "LO:HI:N", 0,
-     "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31", 10},
+     "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31; one speed with "
+     "--angle LO:HI:N",
+     10},
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
     {"resume", KEY_RESUME, "FILE.csv", 0,
      "go on with a sweep that came to an end before its time: asks for the rows that FILE.csv "
@@ -396,6 +438,15 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
 {
     struct quantity_fault fault;
     const char *high = strchr(text, ':'), *count = high ? strchr(high + 1, ':') : NULL;
+    sweep->speed_text = NULL;
+    /* one alone, where angles differ: at the end that is known */
+    if (!high && quantity_read(text, strlen(text), QUANTITY_SPEED, &sweep->low, &fault) &&
+        sweep->low > 0.0) {
+        sweep->high = sweep->low;
+        sweep->speed_count = 1;
+        sweep->speed_text = text;
+        return;
+    }
     if (!count || strspn(count + 1, "0123456789") != strlen(count + 1))
         argp_error(state,
                    "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
@@ -412,13 +463,30 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     unsigned long points = strtoul(count + 1, NULL, 10);
     if (points < 1 || points > MOST_POINTS)
         argp_error(state, "--speed: '%s': N of 1..%d is needed", text, MOST_POINTS);
-    sweep->count = (unsigned)points;
+    sweep->speed_count = (unsigned)points;
 }
 
-static void sweep_check(const struct sweep *sweep, struct argp_state *state)
+/* Either the speeds differ or the angles. */
+static void check_points(struct sweep *sweep, struct argp_state *state)
 {
-    const struct scene_need speeds = {"--speed LO:HI:N", sweep->count > 0};
+    const struct scene *scene = &sweep->scene;
+    if (sweep->speed_text && !scene->angle_list)
+        argp_error(state,
+                   "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
+                   "\"100 mm/s:400 mm/s:31\"; one speed needs --angle LO:HI:N",
+                   sweep->speed_text);
+    if (!sweep->speed_text && scene->angle_list)
+        argp_error(state, "--angle: LO:HI:N: with one --speed, not with %u", sweep->speed_count);
+    if (scene->angle_list && sweep->measured.count > 0)
+        argp_error(state, "--measured is laid over a picture against the speed, not the angle");
+    sweep->count = scene->angle_list ? scene->angle_count : sweep->speed_count;
+}
+
+static void sweep_check(struct sweep *sweep, struct argp_state *state)
+{
+    const struct scene_need speeds = {"--speed LO:HI:N", sweep->speed_count > 0};
     scene_check_given(&sweep->scene, &speeds, 1, "", state);
+    check_points(sweep, state);
     if (sweep->csv && sweep->common->json)
         argp_error(state, "--csv or --json, not both");
     if (sweep->resume && (sweep->csv || sweep->common->json))
@@ -463,12 +531,15 @@ static error_t parse(int key, char *text, struct argp_state *state)
 const struct argp sweep_argp = {
     .options = options,
     .parser = parse,
-    .doc = "Asks for the same impact at N speeds and prints a line for each as it comes. --b and "
-           "--contact-model may be given several times: a curve for each. Interrupted, or when "
-           "the server goes, it leaves what was answered.\v"
-           "Examples: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv\n"
-           "percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz "
-           "--contact-model closed-form --speed 0.05:0.5:19 --plot rods.svg",
+    .doc =
+        "Asks for the same impact at N speeds, or angles, and prints a line for each as it comes. "
+        "--b and "
+        "--contact-model may be given several times: a curve for each. Interrupted, or when "
+        "the server goes, it leaves what was answered.\v"
+        "Examples: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv\n"
+        "percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz "
+        "--contact-model closed-form --speed 0.05:0.5:19 --plot rods.svg\n"
+        "percuss sweep --a steel-sphere --b al-beam --speed 0.3 --angle 0:80:9 --friction 0.3",
     .children = measured_scene_children,
 };
 
@@ -476,7 +547,7 @@ const struct argp sweep_argp = {
 struct work {
     const struct sweep *sweep;
     struct sweep_points points;
-    double *speeds;
+    double *speeds, *angles;
     struct sweep_curve curves[MOST_CURVES];
     struct sweep_run runs[MOST_CURVES];
     struct tally tally;
@@ -485,11 +556,23 @@ struct work {
     bool failed; /* no memory, or the output cannot be written */
 };
 
-static double speed_at(const struct sweep *sweep, unsigned i)
+static double value_at(double low, double high, unsigned count, unsigned i)
 {
-    if (sweep->count == 1)
-        return sweep->low;
-    return sweep->low + (sweep->high - sweep->low) * i / (sweep->count - 1);
+    return count == 1 ? low : low + (high - low) * i / (count - 1);
+}
+
+/* The speed and the angle of each point. False: out of memory. */
+static bool list_points(struct work *work)
+{
+    const struct sweep *sweep = work->sweep;
+    const struct scene *scene = &sweep->scene;
+    work->speeds = calloc(sweep->count, sizeof *work->speeds);
+    work->angles = calloc(sweep->count, sizeof *work->angles);
+    for (unsigned i = 0; work->speeds && work->angles && i < sweep->count; i++) {
+        work->speeds[i] = value_at(sweep->low, sweep->high, sweep->count, i);
+        work->angles[i] = value_at(scene->angle, scene->last_angle, sweep->count, i);
+    }
+    return work->speeds && work->angles;
 }
 
 static bool take_warnings(struct work *work, unsigned i, const struct percuss_reply *reply)
@@ -498,7 +581,7 @@ static bool take_warnings(struct work *work, unsigned i, const struct percuss_re
     char place[128], which[96] = "";
     if (work->points.curve_count > 1)
         snprintf(which, sizeof which, "of %s, %s, ", curve->b, curve->contact_model);
-    snprintf(place, sizeof place, "%sat %g m/s", which, work->speeds[i]);
+    snprintf(place, sizeof place, "%sat %s", which, place_of(&work->points, i).text);
     return tally_take(&work->tally, reply, place);
 }
 
@@ -508,7 +591,7 @@ static bool put_out(void *context, unsigned i)
     struct work *work = context;
     struct sweep_curve *curve = &work->curves[work->at];
     const struct percuss_reply *reply = &work->runs[work->at].replies[i];
-    curve->rows[i] = sweep_row_of(reply, work->speeds[i]);
+    curve->rows[i] = sweep_row_of(&work->points, i, reply);
     curve->done = i + 1;
     FILE *file = work->file ? work->file : stdout;
     if (work->file || work->sweep->csv)
@@ -539,7 +622,7 @@ static int judge(const struct sweep_run *run)
         complain("%s: %s", percuss_status_name(refused->status), refused->message);
     struct percuss_request request;
     if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
-        scene_request(&run->scene, &run->bodies, run->speeds[0], &request) == EXIT_ANSWERED)
+        make_request(run, 0, &request) == EXIT_ANSWERED)
         scene_explain_unknown(run->common, run->client, &request, &run->bodies.list);
     return worst;
 }
@@ -622,9 +705,14 @@ static bool list_curves(struct work *work, struct percuss_client *client)
     for (size_t b = 0; b < scene->b_count; b++) {
         for (size_t m = 0; m < models; m++, count++) {
             struct sweep_run *run = &work->runs[count];
-            *run = (struct sweep_run){
-                sweep->common,         client,           *scene,         .speeds = work->speeds,
-                .count = sweep->count, .ready = put_out, .context = work};
+            *run = (struct sweep_run){sweep->common,
+                                      client,
+                                      *scene,
+                                      .speeds = work->speeds,
+                                      .angles = work->angles,
+                                      .count = sweep->count,
+                                      .ready = put_out,
+                                      .context = work};
             run->scene.b = scene->all_b[b];
             if (scene->model_count)
                 run->scene.options.contact_model = scene->models[m];
@@ -635,16 +723,18 @@ static bool list_curves(struct work *work, struct percuss_client *client)
             good = good && work->curves[count].rows;
         }
     }
-    work->points = (struct sweep_points){scene->a,
-                                         NULL,
-                                         sweep->count,
-                                         work->speeds,
-                                         count,
-                                         work->curves,
-                                         &work->tally,
-                                         sweep->measured.count,
-                                         sweep->measured.list,
-                                         sweep->common->units};
+    work->points = (struct sweep_points){.a = scene->a,
+                                         .count = sweep->count,
+                                         .speeds = work->speeds,
+                                         .angles = work->angles,
+                                         .by_angle = scene->angle_list,
+                                         .askew = scene->askew,
+                                         .curve_count = count,
+                                         .curves = work->curves,
+                                         .warnings = &work->tally,
+                                         .measured_count = sweep->measured.count,
+                                         .measured = sweep->measured.list,
+                                         .units = sweep->common->units};
     return good;
 }
 
@@ -658,6 +748,7 @@ static void release(struct work *work)
         fclose(work->file);
     tally_clear(&work->tally);
     free(work->speeds);
+    free(work->angles);
     free(work);
 }
 
@@ -668,10 +759,7 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
         return complain_memory();
     work->sweep = sweep;
     work->tally.unit = "points";
-    work->speeds = calloc(sweep->count, sizeof *work->speeds);
-    for (unsigned i = 0; work->speeds && i < sweep->count; i++)
-        work->speeds[i] = speed_at(sweep, i);
-    int code = work->speeds && list_curves(work, client) ? EXIT_ANSWERED : complain_memory();
+    int code = list_points(work) && list_curves(work, client) ? EXIT_ANSWERED : complain_memory();
     if (code == EXIT_ANSWERED && sweep->resume)
         code = open_file(work);
     if (code == EXIT_ANSWERED) {
@@ -689,6 +777,7 @@ int command_sweep(int argc, char **argv, struct common *common)
 {
     struct sweep sweep = {.common = common, .scene = scene_default()};
     struct percuss_client *client;
+    sweep.scene.angles = ANGLES_SWEPT;
     argp_parse(&sweep_argp, argc, argv, 0, NULL, &sweep);
     if (!common->json)
         scene_doubt_speed(sweep.high);

@@ -17,14 +17,21 @@
 #include "reply_json.h"
 #include "reply_table.h"
 
-struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed)
+struct sweep_row sweep_row_of(const struct sweep_points *points, unsigned i,
+                              const struct percuss_reply *reply)
 {
-    struct sweep_row row = {.speed = speed,
+    struct sweep_row row = {.speed = points->speeds[i],
                             .restitution = NAN,
                             .error = NAN,
                             .impulse = NAN,
                             .end_time = NAN,
-                            .status = percuss_status_name(reply->status)};
+                            .status = percuss_status_name(reply->status),
+                            .angle = points->angles[i],
+                            .impulse_tangential = {NAN, NAN},
+                            .slip_after = {NAN, NAN},
+                            .tangential_restitution = NAN,
+                            .restitution_kinematic = NAN,
+                            .friction_state = percuss_friction_state_name(0)};
     /* a refusal has no contacts */
     if (reply->contact_count > 0) {
         const struct percuss_contact_result *contact = &reply->contacts[0];
@@ -34,6 +41,11 @@ struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed)
         row.sub_impacts = contact->sub_impact_count;
         row.significant = reply_significant(contact);
         row.end_time = contact->end_time;
+        row.tangential_restitution = contact->tangential_restitution;
+        row.restitution_kinematic = contact->restitution_kinematic;
+        row.friction_state = percuss_friction_state_name(contact->friction_state);
+        memcpy(row.impulse_tangential, contact->impulse_tangential, sizeof row.impulse_tangential);
+        memcpy(row.slip_after, contact->slip_after, sizeof row.slip_after);
     }
     return row;
 }
@@ -45,12 +57,19 @@ void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i)
     if (i == 0 && points->curve_count > 1)
         printf("%s%s on %s, contact model %s\n", k == 0 ? "" : "\n", points->a, curve->b,
                curve->contact_model);
-    if (i == 0)
-        printf("%10s %12s %9s %13s %11s %11s %12s  %s\n", "speed m/s", "restitution", "error",
-               "impulse N s", "sub-impacts", "significant", "end time ms", "status");
-    printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f  %s\n", row->speed, row->restitution,
-           row->error, row->impulse, row->sub_impacts, row->significant, 1e3 * row->end_time,
-           row->status);
+    if (i == 0) {
+        printf("%10s %12s %9s %13s %11s %11s %12s", "speed m/s", "restitution", "error",
+               "impulse N s", "sub-impacts", "significant", "end time ms");
+        if (points->askew)
+            printf(" %9s %14s %12s %9s", "angle deg", "tangential N s", "tang. rest.", "slip");
+        puts("  status");
+    }
+    printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f", row->speed, row->restitution, row->error,
+           row->impulse, row->sub_impacts, row->significant, 1e3 * row->end_time);
+    if (points->askew)
+        printf(" %9.5g %14.6g %12.6f %9s", row->angle, row->impulse_tangential[0],
+               row->tangential_restitution, row->friction_state);
+    printf("  %s\n", row->status);
 }
 
 void sweep_csv_head(const struct sweep_points *points, FILE *file)
@@ -59,6 +78,11 @@ void sweep_csv_head(const struct sweep_points *points, FILE *file)
         fputs("b,contact_model,", file);
     csv_head(file, "speed,restitution,error,impulse,sub_impacts,significant,end_time,status",
              points->units);
+    if (points->askew)
+        csv_head(file,
+                 ",angle,impulse_tangential_1,impulse_tangential_2,slip_after_1,slip_after_2,"
+                 "tangential_restitution,restitution_kinematic,friction_state",
+                 points->units);
     putc('\n', file);
 }
 
@@ -68,9 +92,15 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
     const struct sweep_row *row = &curve->rows[i];
     if (points->curve_count > 1)
         fprintf(file, "%s,%s,", curve->b, curve->contact_model);
-    fprintf(file, "%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s\n", row->speed, row->restitution,
+    fprintf(file, "%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s", row->speed, row->restitution,
             row->error, row->impulse, row->sub_impacts, row->significant, row->end_time,
             row->status);
+    if (points->askew)
+        fprintf(file, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%s", row->angle,
+                row->impulse_tangential[0], row->impulse_tangential[1], row->slip_after[0],
+                row->slip_after[1], row->tangential_restitution, row->restitution_kinematic,
+                row->friction_state);
+    putc('\n', file);
 }
 
 static json_t *curve_to_json(const struct sweep_curve *curve)
@@ -80,6 +110,7 @@ static json_t *curve_to_json(const struct sweep_curve *curve)
         struct sweep_row row = curve->rows[i];
         json_t *point = json_object();
         json_object_set_new(point, "speed", json_number(row.speed));
+        json_object_set_new(point, "angle", json_number(row.angle));
         json_object_set_new(point, "restitution", json_number(row.restitution));
         json_object_set_new(point, "error", json_number(row.error));
         json_object_set_new(point, "impulse", json_number(row.impulse));

@@ -3,7 +3,8 @@
 
 /* The results of a sweep: a curve for every body B and contact model asked for. Columns: speed
  * (m/s), restitution, its estimated error, impulse (N s), sub-impacts, significant ones, end time
- * (s), status; before them b and contact_model where there are several curves. */
+ * (s), status; before them b and contact_model where there are several curves; behind them, where
+ * friction or an angle was asked for, the angle (degrees) and what friction did. */
 #ifndef PERCUSS_CLI_SWEEP_OUTPUT_H
 #define PERCUSS_CLI_SWEEP_OUTPUT_H
 
@@ -48,6 +49,9 @@ struct sweep_row {
     unsigned sub_impacts, significant;
     double end_time;
     const char *status;
+    double angle, impulse_tangential[2], slip_after[2];
+    double tangential_restitution, restitution_kinematic;
+    const char *friction_state;
 };
 
 struct sweep_curve {
@@ -60,9 +64,11 @@ struct sweep_curve {
 
 struct sweep_points {
     const char *a;
-    const char *title; /* of a picture of a single body B */
-    unsigned count;    /* speeds */
-    const double *speeds;
+    const char *title;             /* of a picture of a single body B */
+    unsigned count;                /* points of a curve */
+    const double *speeds, *angles; /* of each; degrees */
+    bool by_angle;                 /* these differ, else the speeds */
+    bool askew;                    /* there are columns of the angle and of friction */
     size_t curve_count;
     const struct sweep_curve *curves;
     const struct tally *warnings; /* of all points */
@@ -71,7 +77,9 @@ struct sweep_points {
     bool units; /* in the head of CSV */
 };
 
-struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed);
+/* Of point i, by its reply. */
+struct sweep_row sweep_row_of(const struct sweep_points *points, unsigned i,
+                              const struct percuss_reply *reply);
 
 /* Row i of curve k as a line of a table, with a heading before the first. */
 void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i);
@@ -86,8 +94,8 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
  * {"curves": [{"b", "contact_model", "points"}], "warnings": [...]} */
 void sweep_print_json(const struct sweep_points *points);
 
-/* The restitution against the speed with its estimated error, the number of sub-impacts below.
- * Exit code; complains. */
+/* The restitution against the speed, or the angle, with its estimated error, the number of
+ * sub-impacts below. Exit code; complains. */
 int sweep_plot(const struct plot_output *output, const struct sweep_points *points);
 
 #endif

@@ -104,18 +104,27 @@ static void write_request(FILE *file, const struct solve_request *request)
         fprintf(file, "%s{\"a\": %u, \"b\": %u", c ? ",\n  " : "", contact->a, contact->b);
         write_numbers(file, "point", 3, contact->point);
         write_numbers(file, "normal", 3, contact->normal);
-        fprintf(file, ", \"gap\": %.17g, \"gap_acceleration\": %.17g}", contact->gap,
+        fprintf(file, ", \"gap\": %.17g, \"gap_acceleration\": %.17g", contact->gap,
                 contact->gap_acceleration);
+        /* builds before there was friction read the others */
+        if (contact->friction > 0.0) {
+            fprintf(file, ", \"friction\": %.17g", contact->friction);
+            write_numbers(file, "tangent", 3, contact->tangent);
+        }
+        fprintf(file, "}");
     }
     const struct solve_options *options = &request->options;
     fprintf(
         file,
         "],\n \"options\": {\"tolerance\": %.17g, \"horizon\": %.17g, \"contact_model\": \"%s\","
-        " \"compliance\": \"%s\", \"dents\": \"%s\", \"conditioning\": %s, \"trace\": %s}}\n",
+        " \"compliance\": \"%s\", \"dents\": \"%s\", \"conditioning\": %s, \"trace\": %s",
         options->tolerance, options->horizon, contact_model_name(options->contact_model),
         compliance_name(options->compliance),
         options->dents == PERCUSS_DENTS_KEEP ? "keep" : "ignore",
         options->conditioning ? "true" : "false", options->trace ? "true" : "false");
+    if (options->friction != PERCUSS_FRICTION_MICRO_SLIP)
+        fprintf(file, ", \"friction\": \"%s\"", friction_name(options->friction));
+    fprintf(file, "}}\n");
 }
 
 bool any_scene_save(const struct lab *lab, const struct any_scene *scene, const char *prefix)

@@ -33,7 +33,7 @@ struct percuss_contact_result {
     uint32_t sub_impacts_listed;   /* at most PERCUSS_MAX_SUB_IMPACTS; 16 in a batch */
     struct percuss_sub_impact *sub_impacts;
     double impulse_error; /* N s; by time, modes and models together; 0 from servers before it */
-    /* friction; all 0 from servers before it */
+    /* friction; 0 or NAN from servers before it */
     double friction;   /* coefficient that was used; 0: none */
     double tangent[3]; /* world, unit, the second one is normal x tangent; zero without friction */
     double impulse_tangential[2];         /* N s, on body a along both; part of impulse_vector */

@@ -75,6 +75,12 @@ static void friction(void **state)
     assert_true(sub->slip_before[1] == 49 && isnan(sub->slip_after[0]) && sub->slip_after[1] == 50);
     assert_int_equal(sub->friction_state, PERCUSS_FRICTION_STATE_REVERSED);
     assert_true(reply.energy.friction == 58);
+    /* the second one is as a server sends it that knows no friction */
+    contact = &reply.contacts[1];
+    assert_true(contact->friction == 0.0 && contact->tangent[1] == 0.0);
+    assert_true(contact->impulse_tangential[0] == 0.0 && contact->slip_after[0] == 0.0);
+    assert_true(isnan(contact->tangential_restitution));
+    assert_true(isnan(contact->restitution_kinematic) && isnan(contact->restitution_energetic));
 }
 
 static void bodies_after(void **state)
