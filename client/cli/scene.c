@@ -47,13 +47,14 @@ static const struct argp_option scene_options[] = {
     {"friction-law", KEY_FRICTION_LAW, "L", 0,
      "micro-slip (default), plain or none, where there is a coefficient", 11},
     {"angle", KEY_ANGLE, "DEG", 0,
-     "angle of A's flight from the normal, degrees; --speed is along the flight: its part V sin "
-     "DEG "
-     "is along the first tangent of the surface, of a beam its axis (sweep: LO:HI:N, too)",
+     "of query, sweep, ensemble: angle of A's flight from the normal, degrees; --speed is along "
+     "the flight: its part V sin DEG is along the first tangent of the surface, of a beam its axis "
+     "(sweep: LO:HI:N, too)",
      11},
     {"spin", KEY_SPIN, "W", 0,
-     "spin of A, rad/s, about the axis first tangent x normal: a positive one adds to the slip of "
-     "A's surface along the tangent, one of -V sin DEG / radius lets a sphere roll",
+     "of query, sweep, ensemble: spin of A, rad/s, about the axis first tangent x normal: a "
+     "positive one adds to the slip of A's surface along the tangent, one of -V sin DEG / radius "
+     "lets a sphere roll",
      11},
     {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
     {"horizon", KEY_HORIZON, "T", 0,
