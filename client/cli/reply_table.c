@@ -94,6 +94,9 @@ static void print_question(const struct percuss_request *request, size_t i,
         printf("  bodies       %s\n", scene->bodies);
 }
 
+/* Of two parts of a pair, below which the second is rounding. */
+static const double NO_SECOND = 1e-9;
+
 /* A pair along both tangents; one number where there is nothing along the second. */
 struct pair_text {
     char text[48];
@@ -102,7 +105,8 @@ struct pair_text {
 static struct pair_text pair_of(const double pair[2])
 {
     struct pair_text text;
-    snprintf(text.text, sizeof text.text, pair[1] == 0.0 ? "%.6g" : "(%.6g, %.6g)", pair[0],
+    snprintf(text.text, sizeof text.text,
+             fabs(pair[1]) <= NO_SECOND * fabs(pair[0]) ? "%.6g" : "(%.6g, %.6g)", pair[0],
              pair[1]);
     return text;
 }

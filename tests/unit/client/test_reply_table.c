@@ -62,7 +62,8 @@ static void friction_is_told_where_it_is(void **state)
     expect("(46, 47)  reversed  negligible\n");
     expect(", plastic 110.34 %, friction 200.00 %, stored 113.79 %");
     /* one number, where there is nothing along the second tangent, and nothing of no error */
-    reply.contacts[0].impulse_tangential[1] = reply.contacts[0].impulse_tangential_error = 0.0;
+    reply.contacts[0].impulse_tangential[1] = 1e-18;
+    reply.contacts[0].impulse_tangential_error = 0.0;
     print(&request, &reply);
     expect("\n  tangential   51 N s\n");
     /* the second contact has none, as all contacts of older servers */
