@@ -23,11 +23,25 @@ static int by_time(const void *x, const void *y)
     return a->contact < b->contact ? -1 : a->contact > b->contact;
 }
 
+/* Adds `sign` times P1 t1 + P2 t2 in the world, with t1 stated and t2 = n x t1. */
+static void add_tangential(const double normal[3], const double t1[3], const double along[2],
+                           double sign, double sum[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        double t2 = normal[j] * t1[k] - normal[k] * t1[j];
+        sum[i] += sign * (along[0] * t1[i] + along[1] * t2);
+    }
+}
+
 /* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
 static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
                          size_t contact)
 {
-    double sum = 0.0;
+    const double *normal = episode->contacts[contact].normal, *t1 = result->tangent;
+    bool rubs =
+        result->friction > 0.0 && episode->request.options.friction != PERCUSS_FRICTION_NONE;
+    double sum = 0.0, tangential[3] = {0.0};
     struct entry *first = &episode->entries[episode->entry_count];
     for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &result->sub_impacts[i];
@@ -38,17 +52,28 @@ static void list_contact(struct episode *episode, const struct percuss_contact_r
                                 .contact = contact,
                                 .impulse = sub->impulse};
         sum += sub->impulse;
+        if (!rubs)
+            continue;
+        add_tangential(normal, t1, sub->impulse_tangential, 1.0, entry->tangential);
+        add_tangential(normal, t1, sub->impulse_tangential, -1.0, tangential);
     }
+    if (rubs)
+        add_tangential(normal, t1, result->impulse_tangential, 1.0, tangential);
     /* rounding, or more sub-impacts than are listed */
     struct entry rest = {.time = episode->time + result->end_time,
                          .start = result->end_time,
                          .end = result->end_time,
                          .contact = contact,
                          .impulse = result->impulse - sum};
-    if (result->sub_impact_count > result->sub_impacts_listed)
+    memcpy(rest.tangential, tangential, sizeof rest.tangential);
+    if (result->sub_impact_count > result->sub_impacts_listed) {
         episode->entries[episode->entry_count++] = rest;
-    else if (result->sub_impacts_listed)
-        first[result->sub_impacts_listed - 1].impulse += rest.impulse;
+    } else if (result->sub_impacts_listed) {
+        struct entry *last = &first[result->sub_impacts_listed - 1];
+        last->impulse += rest.impulse;
+        for (int i = 0; i < 3; i++)
+            last->tangential[i] += rest.tangential[i];
+    }
 }
 
 /* The entries of an episode, in the order in which they are applied: the reply's sub-impacts at the
@@ -73,7 +98,7 @@ static const double MARGIN = 1e-9; /* s before a sub-impact, for its touch not t
 
 static void episode_free(struct episode *episode)
 {
-    free((void *)episode->request.delassus);
+    free(episode->delassus);
     free(episode->contacts);
     free(episode->entries);
     free(episode);
@@ -111,7 +136,7 @@ static struct episode *episode_create(const struct group *group)
     }
     /* the matrix is its own, as it outlives the group */
     memcpy(delassus, group->delassus, n * n * sizeof *delassus);
-    episode->request.delassus = delassus;
+    episode->delassus = delassus;
     episode->request.contact_count = n;
     episode->contacts = malloc(n * sizeof *episode->contacts);
     episode->entries = malloc(most * sizeof *episode->entries);
@@ -156,9 +181,8 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     episode->revocable = reply && !total;
     /* the question is kept, for that of the vibration at another time */
     if (reply) {
-        const double *own = episode->request.delassus;
         episode->request = *request;
-        episode->request.delassus = own;
+        episode->request.delassus = request->delassus ? episode->delassus : NULL;
     }
     /* impulses at their times, until when the pairs have no other impact */
     list_make(episode, reply, group->impulse, total);
@@ -177,40 +201,89 @@ static void move_gaps(const struct percuss_slow *slow, const struct episode *epi
     for (size_t i = 0; i < n; i++) {
         struct pair *pair = pairs_find(slow, &episode->contacts[i]);
         if (pair)
-            pair->contact.gap += episode->request.delassus[i * n + contact] * moment;
+            pair->contact.gap += episode->delassus[i * n + contact] * moment;
     }
+}
+
+/* The tangential impulse of an entry as it is on a of the contact by now, whose normal may have
+ * turned since the question: of the same size, in the present surface. */
+static void place_tangential(const struct episode *episode, const struct entry *entry,
+                             const struct percuss_slow_contact *place, double tangential[3])
+{
+    const double *from = entry->tangential, *n = place->normal;
+    double sign = place->a == episode->contacts[entry->contact].a ? 1.0 : -1.0;
+    double out = from[0] * n[0] + from[1] * n[1] + from[2] * n[2];
+    double size = sqrt(from[0] * from[0] + from[1] * from[1] + from[2] * from[2]);
+    double left = 0.0;
+    for (int i = 0; i < 3; i++) {
+        tangential[i] = from[i] - out * n[i];
+        left += tangential[i] * tangential[i];
+    }
+    for (int i = 0; i < 3; i++)
+        tangential[i] *= left > 0.0 ? sign * size / sqrt(left) : 0.0;
+}
+
+/* `normal` along the contact's normal and `tangential`, in the world. */
+static void add_up(const struct percuss_slow_contact *place, double normal,
+                   const double tangential[3], double vector[3])
+{
+    for (int i = 0; i < 3; i++)
+        vector[i] = normal * place->normal[i] + tangential[i];
 }
 
 /* Changes the velocities as the engine wants to be told: of the pair, or of each body. */
 static bool change_velocities(const struct percuss_slow_engine *engine,
-                              const struct percuss_slow_contact *contact, double impulse)
+                              const struct percuss_slow_contact *place, double impulse,
+                              const double tangential[3], bool slides)
 {
-    if (engine->apply)
-        return engine->apply(engine->context, contact, impulse);
+    if (engine->apply && !slides)
+        return engine->apply(engine->context, place, impulse);
     double on_a[3], on_b[3];
-    for (int i = 0; i < 3; i++) {
-        on_a[i] = impulse * contact->normal[i];
+    add_up(place, impulse, tangential, on_a);
+    if (engine->apply_vector)
+        return engine->apply_vector(engine->context, place, on_a);
+    for (int i = 0; i < 3; i++)
         on_b[i] = -on_a[i];
-    }
-    return engine->push(engine->context, contact->a, on_a, contact->point) &&
-           engine->push(engine->context, contact->b, on_b, contact->point);
+    return engine->push(engine->context, place->a, on_a, place->point) &&
+           engine->push(engine->context, place->b, on_b, place->point);
 }
 
-/* Applies `impulse` as if it had been at the entry's time. */
+/* The same for positions, by the impulses' moments. */
+static bool change_positions(const struct percuss_slow_config *config,
+                             const struct percuss_slow_contact *place, double moment,
+                             const double tangential[3], double late, bool slides)
+{
+    if (config->move && !(slides && config->move_vector))
+        return config->move(config->engine.context, place, moment);
+    double along[3], on_a[3];
+    for (int i = 0; i < 3; i++)
+        along[i] = tangential[i] * late;
+    add_up(place, moment, along, on_a);
+    return config->move_vector(config->engine.context, place, on_a);
+}
+
+/* Applies `factor`, 1 or -1, times an entry's impulse as if it had been at its time. */
 static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
-                                 const struct entry *entry, double impulse, double now)
+                                 const struct entry *entry, double factor, double now)
 {
     /* where the bodies touch by now, if they are still near */
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     const struct pair *pair = pairs_find(slow, contact);
     const struct percuss_slow_engine *engine = &slow->config.engine;
     struct percuss_slow_contact place = pair ? pair->contact : *contact;
-    double late = now - entry->time;
-    bool moves = slow->config.move && !(fabs(late) <= SLOW_INSTANT);
-    if (!change_velocities(engine, &place, impulse))
+    double late = now - entry->time, impulse = factor * entry->impulse, tangential[3];
+    bool moves = slow_moves(slow) && !(fabs(late) <= SLOW_INSTANT), slides = false;
+    place_tangential(episode, entry, &place, tangential);
+    for (int i = 0; i < 3; i++) {
+        tangential[i] *= factor;
+        slides = slides || tangential[i] != 0.0;
+    }
+    if (!change_velocities(engine, &place, impulse, tangential, slides))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's %s failed",
-                         engine->apply ? "apply" : "push");
-    if (moves && !slow->config.move(engine->context, &place, impulse * late))
+                         engine->push                                         ? "push"
+                         : engine->apply_vector && (slides || !engine->apply) ? "apply_vector"
+                                                                              : "apply");
+    if (moves && !change_positions(&slow->config, &place, impulse * late, tangential, late, slides))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
     if (moves)
         move_gaps(slow, episode, entry->contact, impulse * late);
@@ -226,7 +299,7 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
         while (!result && episode->played < episode->entry_count &&
                slow_has_come(episode->entries[episode->played].play, now)) {
             const struct entry *entry = &episode->entries[episode->played++];
-            result = apply(slow, episode, entry, entry->impulse, now);
+            result = apply(slow, episode, entry, 1.0, now);
             ++*applied;
         }
         if (episode->played == episode->entry_count && now >= episode->time + episode->window)
@@ -301,7 +374,7 @@ static enum percuss_result take_back(const struct percuss_slow *slow, const stru
         if (pairs_is_same(&group->contacts[i], contact))
             group->moved[i] += entry->impulse * (now - entry->time);
     entry->taken_back = true;
-    return apply(slow, episode, entry, -entry->impulse, now);
+    return apply(slow, episode, entry, -1.0, now);
 }
 
 enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *episode,
@@ -351,8 +424,7 @@ enum percuss_result episodes_restore_revoked(struct percuss_slow *slow, double n
     for (struct episode *episode = slow->episodes; episode; episode = episode->next) {
         for (size_t i = 0; !result && i < episode->entry_count; i++)
             if (episode->entries[i].taken_back)
-                result =
-                    apply(slow, episode, &episode->entries[i], episode->entries[i].impulse, now);
+                result = apply(slow, episode, &episode->entries[i], 1.0, now);
         for (size_t i = 0; i < episode->entry_count; i++)
             episode->entries[i].taken_back = false;
         episode->revoked = false;

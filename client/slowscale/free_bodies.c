@@ -35,23 +35,22 @@ static void rotation(const double q[4], double r[9])
     r[8] = 1.0 - s * (x * x + y * y);
 }
 
-/* Velocities that a unit impulse at the contact gives the body. */
-static void unit_response(const struct percuss_body_motion *body,
-                          const struct percuss_slow_inertia *inertia,
-                          const struct percuss_slow_contact *contact, double velocity[3],
-                          double turning[3])
+/* Velocities that an impulse at a point gives the body. */
+static void respond(const struct percuss_body_motion *body,
+                    const struct percuss_slow_inertia *inertia, const double point[3],
+                    const double impulse[3], double velocity[3], double turning[3])
 {
     double arm[3], moment[3], r[9];
-    /* n / m */
+    /* P / m */
     for (int i = 0; i < 3; i++) {
-        arm[i] = contact->point[i] - body->position[i];
-        velocity[i] = contact->normal[i] / inertia->mass;
+        arm[i] = point[i] - body->position[i];
+        velocity[i] = impulse[i] / inertia->mass;
         turning[i] = 0.0;
     }
     if (isinf(inertia->mass))
         return;
-    /* I^-1 (arm x n), by the principal axes: the columns of r */
-    cross(arm, contact->normal, moment);
+    /* I^-1 (arm x P), by the principal axes: the columns of r */
+    cross(arm, impulse, moment);
     rotation(body->orientation, r);
     for (int axis = 0; axis < 3; axis++) {
         double about = r[axis] * moment[0] + r[3 + axis] * moment[1] + r[6 + axis] * moment[2];
@@ -90,7 +89,7 @@ static double coupling(const struct percuss_body_motion *bodies,
                        const struct percuss_slow_contact *at, const struct percuss_slow_contact *of)
 {
     double velocity[3], turning[3];
-    unit_response(&bodies[body], &inertias[body], at, velocity, turning);
+    respond(&bodies[body], &inertias[body], at->point, at->normal, velocity, turning);
     double rate = rate_at(bodies[body].position, velocity, turning, of);
     return (at->a == body ? 1.0 : -1.0) * (of->a == body ? rate : -rate);
 }
@@ -114,21 +113,38 @@ void percuss_slow_free_delassus(const struct percuss_body_motion *bodies,
         }
 }
 
+/* Adds `factor` times the velocities by a unit impulse in a direction, + on a and - on b. */
+static void push_pair(struct percuss_body_motion *bodies,
+                      const struct percuss_slow_inertia *inertias,
+                      const struct percuss_slow_contact *contact, const double direction[3],
+                      double factor)
+{
+    for (int side = 0; side < 2; side++) {
+        uint32_t body = side == 0 ? contact->a : contact->b;
+        double velocity[3], turning[3];
+        respond(&bodies[body], &inertias[body], contact->point, direction, velocity, turning);
+        for (int i = 0; i < 3; i++) {
+            bodies[body].velocity[i] += (side == 0 ? factor : -factor) * velocity[i];
+            bodies[body].angular_velocity[i] += (side == 0 ? factor : -factor) * turning[i];
+        }
+    }
+}
+
 void percuss_slow_free_apply(struct percuss_body_motion *bodies,
                              const struct percuss_slow_inertia *inertias,
                              const struct percuss_slow_contact *contact, double impulse)
 {
-    if (SLOW_NULL(bodies, inertias, contact))
-        return;
-    for (int side = 0; side < 2; side++) {
-        uint32_t body = side == 0 ? contact->a : contact->b;
-        double velocity[3], turning[3];
-        unit_response(&bodies[body], &inertias[body], contact, velocity, turning);
-        for (int i = 0; i < 3; i++) {
-            bodies[body].velocity[i] += (side == 0 ? impulse : -impulse) * velocity[i];
-            bodies[body].angular_velocity[i] += (side == 0 ? impulse : -impulse) * turning[i];
-        }
-    }
+    if (!SLOW_NULL(bodies, inertias, contact))
+        push_pair(bodies, inertias, contact, contact->normal, impulse);
+}
+
+void percuss_slow_free_apply_vector(struct percuss_body_motion *bodies,
+                                    const struct percuss_slow_inertia *inertias,
+                                    const struct percuss_slow_contact *contact,
+                                    const double impulse[3])
+{
+    if (!SLOW_NULL(bodies, inertias, contact, impulse))
+        push_pair(bodies, inertias, contact, impulse, 1.0);
 }
 
 /* Turns by a rotation vector, world. */
@@ -145,21 +161,38 @@ static void turn(double q[4], const double by[3])
         q[i] = turned[i];
 }
 
+/* As push_pair, of places. */
+static void move_pair(struct percuss_body_motion *bodies,
+                      const struct percuss_slow_inertia *inertias,
+                      const struct percuss_slow_contact *contact, const double direction[3],
+                      double factor)
+{
+    for (int side = 0; side < 2; side++) {
+        uint32_t body = side == 0 ? contact->a : contact->b;
+        double signed_factor = side == 0 ? factor : -factor;
+        double velocity[3], turning[3], by[3];
+        respond(&bodies[body], &inertias[body], contact->point, direction, velocity, turning);
+        for (int i = 0; i < 3; i++) {
+            bodies[body].position[i] += signed_factor * velocity[i];
+            by[i] = signed_factor * turning[i];
+        }
+        turn(bodies[body].orientation, by);
+    }
+}
+
 void percuss_slow_free_move(struct percuss_body_motion *bodies,
                             const struct percuss_slow_inertia *inertias,
                             const struct percuss_slow_contact *contact, double moment)
 {
-    if (SLOW_NULL(bodies, inertias, contact))
-        return;
-    for (int side = 0; side < 2; side++) {
-        uint32_t body = side == 0 ? contact->a : contact->b;
-        double signed_moment = side == 0 ? moment : -moment;
-        double velocity[3], turning[3], by[3];
-        unit_response(&bodies[body], &inertias[body], contact, velocity, turning);
-        for (int i = 0; i < 3; i++) {
-            bodies[body].position[i] += signed_moment * velocity[i];
-            by[i] = signed_moment * turning[i];
-        }
-        turn(bodies[body].orientation, by);
-    }
+    if (!SLOW_NULL(bodies, inertias, contact))
+        move_pair(bodies, inertias, contact, contact->normal, moment);
+}
+
+void percuss_slow_free_move_vector(struct percuss_body_motion *bodies,
+                                   const struct percuss_slow_inertia *inertias,
+                                   const struct percuss_slow_contact *contact,
+                                   const double moment[3])
+{
+    if (!SLOW_NULL(bodies, inertias, contact, moment))
+        move_pair(bodies, inertias, contact, moment, 1.0);
 }

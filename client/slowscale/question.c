@@ -9,6 +9,8 @@
 #include "pairs.h"
 #include "question.h"
 
+/* With friction the service uses its own inverse masses, which must be the engine's within this. */
+static const double SAME_MASSES = 1e-2;
 static const double LONGEST_HORIZON = 10.0; /* s, that the service allows */
 enum { MOST_LONGER = 2 };                   /* questions with a longer horizon */
 
@@ -44,25 +46,97 @@ static bool enter_body(const struct percuss_slow *slow, const struct group *grou
     return true;
 }
 
-bool question_make(const struct percuss_slow *slow, const struct group *group, double now,
+/* The reason why the group has no friction, about *body if that is not empty; NULL: it has. */
+static const char *without_friction(const struct percuss_slow *slow, const struct group *group,
+                                    const char **body)
+{
+    const struct percuss_slow_engine *engine = &slow->config.engine;
+    bool any = false;
+    *body = "";
+    if (slow->config.options.friction == PERCUSS_FRICTION_NONE)
+        return "options.friction is none";
+    if (!engine->push && !engine->apply_vector)
+        return "the engine must give apply_vector or push";
+    for (size_t i = 0; i < group->count; i++) {
+        const uint32_t bodies[2] = {group->contacts[i].a, group->contacts[i].b};
+        for (int side = 0; side < 2; side++) {
+            const struct percuss_slow_body *one = &slow->bodies[bodies[side]];
+            any = any || one->free;
+            *body = one->id;
+            if (!one->free && !one->fixed)
+                return " is not stated to be free";
+        }
+    }
+    return any ? NULL : " is fixed, and so is the other one";
+}
+
+/* Whether the group has friction. False in *allowed: a contact states a coefficient in vain. */
+static bool rubs(const struct percuss_slow *slow, struct group *group, bool *allowed)
+{
+    const char *body, *reason = without_friction(slow, group, &body);
+    *allowed = true;
+    if (!reason || slow->config.options.friction == PERCUSS_FRICTION_NONE)
+        return !reason;
+    for (size_t i = 0; i < group->count; i++)
+        if (group->contacts[i].friction != 0.0) {
+            snprintf(group->why, sizeof group->why,
+                     "contact of %s and %s: friction: %g: %s%s: 0, or options.friction none, is "
+                     "allowed",
+                     slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b],
+                     group->contacts[i].friction, body, reason);
+            *allowed = false;
+            break;
+        }
+    return false;
+}
+
+bool question_has_these_masses(const struct percuss_slow *slow, struct group *group,
+                               const struct percuss_request *request,
+                               const struct percuss_reply *reply)
+{
+    for (size_t i = 0; !request->delassus && i < group->count; i++) {
+        double ours = group->delassus[i * group->count + i];
+        double theirs = reply->contacts[i].inverse_effective_mass;
+        if (fabs(ours - theirs) <= SAME_MASSES * fabs(ours))
+            continue;
+        snprintf(group->why, sizeof group->why,
+                 "contact of %s and %s: the inverse effective mass is %.9g 1/kg in the engine and "
+                 "%.9g 1/kg in the catalogue; bodies that are stated to be free must have the same",
+                 slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], ours, theirs);
+        return false;
+    }
+    return true;
+}
+
+bool question_make(const struct percuss_slow *slow, struct group *group, double now,
                    struct percuss_request *request)
 {
     uint32_t map[PERCUSS_MAX_BODIES];
+    bool allowed, slides = rubs(slow, group, &allowed);
+    if (!allowed)
+        return false;
+    snprintf(group->why, sizeof group->why, "%zu contacts are more than one question holds",
+             group->count);
     if (group->count > PERCUSS_MAX_CONTACTS)
         return false;
     request->sequence = 0;
     request->body_count = 0;
     request->contact_count = group->count;
-    request->delassus = group->delassus;
     request->options = slow->config.options;
-    /* an engine is handed impulses along the normals alone */
-    request->options.friction = PERCUSS_FRICTION_NONE;
+    /* friction and the engine's matrix exclude each other */
+    request->delassus = slides ? NULL : group->delassus;
+    if (!slides)
+        request->options.friction = PERCUSS_FRICTION_NONE;
     for (size_t i = 0; i < group->count; i++) {
         const struct percuss_slow_contact *from = &group->contacts[i];
         struct percuss_contact *to = &request->contacts[i];
         *to = (struct percuss_contact){0};
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
+        if (slides) {
+            to->friction = from->friction;
+            memcpy(to->tangent, from->tangent, sizeof to->tangent);
+        }
         to->gap = from->gap;
         /* the pressing force balances bodies that lie together */
         bool rests = fabs(group->gap_rate[i]) <= pairs_rest_speed(slow, from, now);

@@ -7,9 +7,16 @@
 
 #include "group.h"
 
-/* The question about a group; false: too many contacts or bodies for one. */
-bool question_make(const struct percuss_slow *slow, const struct group *group, double now,
+/* The question about a group. False: too many contacts or bodies for one, or a contact states
+ * friction that its group cannot have; group->why says which. */
+bool question_make(const struct percuss_slow *slow, struct group *group, double now,
                    struct percuss_request *request);
+
+/* Whether the reply to a question without a matrix is about bodies as heavy as the engine's; else
+ * the difference is in group->why. */
+bool question_has_these_masses(const struct percuss_slow *slow, struct group *group,
+                               const struct percuss_request *request,
+                               const struct percuss_reply *reply);
 
 /* Puts it, again where that helps. Not OK: no usable answer, as question_put. *reply is to be
  * released in any case. */

@@ -35,8 +35,9 @@ struct entry {
     double play;       /* s: when it is applied */
     double start, end; /* of its sub-impact */
     size_t contact;
-    double impulse;
-    bool taken_back; /* was applied, and is not any more */
+    double impulse;       /* along the normal */
+    double tangential[3]; /* world, on a of the episode's contact; zero without friction */
+    bool taken_back;      /* was applied, and is not any more */
 };
 
 /* An answer that is being played. */
@@ -46,7 +47,8 @@ struct episode {
     double window; /* s from then: the fast scale's; the tokens hold at its end */
     bool revocable;
     bool revoked;                   /* until its successor is known */
-    struct percuss_request request; /* delassus is its own */
+    struct percuss_request request; /* delassus is its own or NULL, as it was asked */
+    double *delassus;               /* the engine's */
     struct percuss_slow_contact *contacts;
     size_t entry_count, played;
     struct entry *entries; /* by time */
@@ -70,6 +72,12 @@ struct percuss_slow {
     double time; /* s: of the last call that ended well */
     struct percuss_slow_counts counts;
 };
+
+/* Whether the engine sets positions back. */
+static inline bool slow_moves(const struct percuss_slow *slow)
+{
+    return slow->config.move || slow->config.move_vector;
+}
 
 /* s: an engine's clock rarely ends on the very bit asked for */
 #define SLOW_INSTANT 1e-12

@@ -111,7 +111,7 @@ static void go_back(const struct percuss_slow *slow, struct group *group, double
         struct percuss_slow_contact *contact = &group->contacts[i];
         for (size_t j = 0; j < group->count; j++)
             contact->gap -= group->delassus[i * group->count + j] * group->moved[j];
-        if (slow->config.move) /* where the bodies are by now */
+        if (slow_moves(slow)) /* where the bodies are by now */
             pairs_find(slow, contact)->contact.gap = contact->gap;
         contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
     }
@@ -177,9 +177,8 @@ static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
     enum percuss_result result = PERCUSS_RESULT_INVALID_ARGUMENT;
     if (question_make(slow, group, group->start, request))
         result = question_ask(slow, group, request, &group->answer);
-    else
-        snprintf(group->why, sizeof group->why, "%zu contacts are more than one question holds",
-                 group->count);
+    if (!result && !question_has_these_masses(slow, group, request, &group->answer))
+        result = PERCUSS_RESULT_INVALID_ARGUMENT;
     /* the service's impulses */
     if (!result) {
         group->reply = &group->answer;
@@ -266,7 +265,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
                                         double now)
 {
     double latest = 0.0;
-    for (size_t i = 0; group->reply && !slow->config.move && i < group->count; i++) {
+    for (size_t i = 0; group->reply && !slow_moves(slow) && i < group->count; i++) {
         const struct percuss_contact_result *contact = &group->reply->contacts[i];
         double a = acceleration(slow, &group->contacts[i]);
         /* all at the start: the effect of the gap's acceleration meanwhile must be negligible */
@@ -366,8 +365,8 @@ static enum percuss_result slowscale_check(const struct percuss_slow_config *con
                              PERCUSS_ID_SIZE - 1);
     if (!config->engine.probe || !config->engine.now)
         return slow_fail(bad, "engine: probe and now must both be given");
-    if (!config->engine.apply == !config->engine.push)
-        return slow_fail(bad, "engine: one of apply and push must be given");
+    if ((config->engine.apply || config->engine.apply_vector) == (config->engine.push != NULL))
+        return slow_fail(bad, "engine: one of apply and push must be given, or apply_vector");
     if (config->service.solve && !config->service.release)
         return slow_fail(bad, "service.release: must be given with service.solve");
     if (!(config->restitution >= 0.0 && config->restitution <= 1.0))
@@ -405,7 +404,8 @@ enum percuss_result percuss_slow_create(const struct percuss_slow_config *config
     }
     for (size_t i = 0; i < config->body_count; i++) {
         strcpy(made->ids[i], config->bodies[i].id);
-        made->bodies[i] = (struct percuss_slow_body){made->ids[i], config->bodies[i].fixed};
+        made->bodies[i] = config->bodies[i];
+        made->bodies[i].id = made->ids[i];
     }
     made->config.bodies = made->bodies;
     *slow = made;

@@ -190,10 +190,11 @@ void loop_start_moving(struct loop *loop, enum percuss_slow_application applicat
     struct percuss_slow_config config = percuss_slow_config_default();
     config.move = moves ? loop_move : NULL;
     for (size_t i = 0; i < loop->body_count; i++)
-        bodies[i] = (struct percuss_slow_body){loop->ids[i], false};
+        bodies[i] = (struct percuss_slow_body){.id = loop->ids[i]};
     config.body_count = loop->body_count;
     config.bodies = bodies;
-    config.engine = (struct percuss_slow_engine){loop, loop_probe, loop_apply, loop_now, NULL};
+    config.engine = (struct percuss_slow_engine){
+        .context = loop, .probe = loop_probe, .apply = loop_apply, .now = loop_now};
     config.service = (struct percuss_slow_service){loop, loop_solve, loop_release, NULL};
     config.options.tolerance = tolerance;
     config.application = application;

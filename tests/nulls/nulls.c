@@ -94,7 +94,7 @@ static double now(void *context)
     return 0.0;
 }
 
-static const struct percuss_slow_body BODIES[] = {{"steel-sphere", false}, {"al-rod", false}};
+static const struct percuss_slow_body BODIES[] = {{.id = "steel-sphere"}, {.id = "al-rod"}};
 static const char *const COLUMNS[] = {"speed=v"};
 static const struct percuss_measured_impact IMPACT = {.speed = 0.3, .restitution = 0.5};
 

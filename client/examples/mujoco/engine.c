@@ -152,7 +152,8 @@ static double now(void *context)
 
 void engine_configure(struct engine *engine, struct percuss_slow_config *config)
 {
-    config->engine = (struct percuss_slow_engine){engine, probe, apply, now, NULL};
+    config->engine =
+        (struct percuss_slow_engine){.context = engine, .probe = probe, .apply = apply, .now = now};
     config->move = move;
 }
 

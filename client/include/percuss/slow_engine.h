@@ -29,6 +29,12 @@ struct percuss_slow_engine {
     /* Instead of `apply`, where bodies have coordinates of their own: an impulse on one body, N s,
      * at a point, m, both in the world. Called for a and then, with the opposite impulse, for b. */
     bool (*push)(void *context, uint32_t body, const double impulse[3], const double point[3]);
+    /* Beside `apply`, or instead: changes the velocities by M^-1 J^T impulse, with J the Jacobian
+     * of the relative velocity of the bodies' points at contact->point: `impulse`, N s, world, acts
+     * on a there, and against it on b. Called where an impulse has a tangential part, by friction.
+     */
+    bool (*apply_vector)(void *context, const struct percuss_slow_contact *contact,
+                         const double impulse[3]);
 };
 
 /* The service: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: none, every

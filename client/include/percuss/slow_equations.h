@@ -64,6 +64,8 @@ struct percuss_slow_contact {
     double normal[3];        /* world, unit, from b to a */
     double gap;              /* m; negative: overlap */
     double gap_acceleration; /* m/s^2 without contact forces; negative presses; 0 if unknown */
+    double friction;         /* coefficient; 0: the catalogue's for the two materials, if any */
+    double tangent[3];       /* first tangential direction, as in struct percuss_contact */
 };
 
 /* Inertia of a body that no joint holds. */
@@ -92,10 +94,23 @@ PERCUSS_API void percuss_slow_free_apply(struct percuss_body_motion *bodies,
                                          const struct percuss_slow_contact *contact,
                                          double impulse);
 
+/* The same with all components: `impulse`, world, on a at the contact's point, and against it on b.
+ * The normal of the contact is not read. */
+PERCUSS_API void percuss_slow_free_apply_vector(struct percuss_body_motion *bodies,
+                                                const struct percuss_slow_inertia *inertias,
+                                                const struct percuss_slow_contact *contact,
+                                                const double impulse[3]);
+
 /* Moves free bodies, and turns them, by M^-1 w moment; moment in N s^2. */
 PERCUSS_API void percuss_slow_free_move(struct percuss_body_motion *bodies,
                                         const struct percuss_slow_inertia *inertias,
                                         const struct percuss_slow_contact *contact, double moment);
+
+/* The same with all components, as percuss_slow_free_apply_vector. */
+PERCUSS_API void percuss_slow_free_move_vector(struct percuss_body_motion *bodies,
+                                               const struct percuss_slow_inertia *inertias,
+                                               const struct percuss_slow_contact *contact,
+                                               const double moment[3]);
 
 #ifdef __cplusplus
 }

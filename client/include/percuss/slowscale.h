@@ -39,7 +39,17 @@ struct percuss_slow_report {
 struct percuss_slow_body {
     const char *id; /* in the service's catalogue */
     bool fixed;     /* holds still in any impact: does not couple the impacts on it */
+    bool free;      /* no joint holds it, and its inertia is the catalogue's: allows friction, see
+                       below */
 };
+
+/* Friction: the whole impulse vector of the answer acts at the contact's point. The service takes
+ * no inverse mass matrix of the engine together with friction. So an impact has friction where all
+ * of its bodies are `free` or `fixed`, the engine gives `apply_vector` or `push`, and
+ * options.friction is not `none`; the question then has no matrix. Other impacts are asked about
+ * with the matrix and with options.friction `none`; a contact of theirs that states a coefficient
+ * is refused by name, unless options.friction is `none`. The declared restitution has no friction.
+ */
 
 struct percuss_slow_config {
     size_t body_count;
@@ -66,6 +76,10 @@ struct percuss_slow_config {
      * behind one. NULL: they are applied late without it, which takes energy, and TOTAL is refused
      * where the gap accelerates. False: failure, as of the engine's callbacks. */
     bool (*move)(void *context, const struct percuss_slow_contact *contact, double moment);
+    /* Beside `move`, or instead: as `apply_vector` is to `apply`. Without it, positions along the
+     * surface lack what friction did between an impulse's time and the one when it is applied. */
+    bool (*move_vector)(void *context, const struct percuss_slow_contact *contact,
+                        const double moment[3]);
 };
 
 #ifdef __cplusplus

@@ -23,6 +23,8 @@ class Contact(ctypes.Structure):
         ("normal", _Vector),
         ("gap", c_double),
         ("gap_acceleration", c_double),
+        ("friction", c_double),
+        ("tangent", _Vector),
     ]
 
 
@@ -42,12 +44,20 @@ class View(ctypes.Structure):
 
 Probe = CFUNCTYPE(c_bool, c_void_p, POINTER(View))
 Apply = CFUNCTYPE(c_bool, c_void_p, POINTER(Contact), c_double)
+ApplyVector = CFUNCTYPE(c_bool, c_void_p, POINTER(Contact), POINTER(c_double))
 Now = CFUNCTYPE(c_double, c_void_p)
 Push = CFUNCTYPE(c_bool, c_void_p, c_uint32, POINTER(c_double), POINTER(c_double))
 
 
 class Engine(ctypes.Structure):
-    _fields_ = [("context", c_void_p), ("probe", Probe), ("apply", Apply), ("now", Now), ("push", Push)]
+    _fields_ = [
+        ("context", c_void_p),
+        ("probe", Probe),
+        ("apply", Apply),
+        ("now", Now),
+        ("push", Push),
+        ("apply_vector", ApplyVector),
+    ]
 
 
 class Service(ctypes.Structure):
@@ -78,7 +88,7 @@ ReportFunction = CFUNCTYPE(None, c_void_p, POINTER(Report))
 
 
 class Body(ctypes.Structure):
-    _fields_ = [("id", c_char_p), ("fixed", c_bool)]
+    _fields_ = [("id", c_char_p), ("fixed", c_bool), ("free", c_bool)]
 
 
 class Config(ctypes.Structure):
@@ -96,6 +106,7 @@ class Config(ctypes.Structure):
         ("report_context", c_void_p),
         ("fall_back", c_bool),
         ("move", Apply),
+        ("move_vector", ApplyVector),
     ]
 
 
@@ -131,6 +142,8 @@ FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("free_delassus", None, [_Bodies, _Inertias, c_size_t, POINTER(Contact), _Doubles]),
     ("free_apply", None, [_Bodies, _Inertias, POINTER(Contact), c_double]),
     ("free_move", None, [_Bodies, _Inertias, POINTER(Contact), c_double]),
+    ("free_apply_vector", None, [_Bodies, _Inertias, POINTER(Contact), _Doubles]),
+    ("free_move_vector", None, [_Bodies, _Inertias, POINTER(Contact), _Doubles]),
     ("config_default", Config, []),
     ("create", c_int, [POINTER(Config), POINTER(_Slow)]),
     ("free", None, [_Slow]),

@@ -196,8 +196,9 @@ int main(int argc, char **argv)
     engine.link.reconnect = 60.0; /* only ends what would hang */
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = BODIES;
-    config.bodies = (struct percuss_slow_body[]){{"steel-sphere", false}, {"al-beam", false}};
-    config.engine = (struct percuss_slow_engine){&engine, probe, apply, now, NULL};
+    config.bodies = (struct percuss_slow_body[]){{.id = "steel-sphere"}, {.id = "al-beam"}};
+    config.engine = (struct percuss_slow_engine){
+        .context = &engine, .probe = probe, .apply = apply, .now = now};
     config.service = percuss_slow_link_service(&engine.link);
     config.options.tolerance = 1e-5;
     config.restitution = 0.45;

@@ -116,14 +116,16 @@ static void go_on(struct drop *drop)
 
 static struct drop *drop_create(const struct manner *manner, double gap, double rest_speed)
 {
-    static const struct percuss_slow_body names[THINGS] = {{"ball", false}, {"ground", true}};
+    static const struct percuss_slow_body names[THINGS] = {{.id = "ball"},
+                                                           {.id = "ground", .fixed = true}};
     struct drop *drop = calloc(1, sizeof *drop);
     assert_non_null(drop);
     *drop = (struct drop){.manner = *manner, .gap = gap};
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = THINGS;
     config.bodies = names;
-    config.engine = (struct percuss_slow_engine){drop, drop_probe, drop_apply, drop_now, NULL};
+    config.engine = (struct percuss_slow_engine){
+        .context = drop, .probe = drop_probe, .apply = drop_apply, .now = drop_now};
     config.restitution = manner->restitution;
     if (rest_speed > 0.0)
         config.rest_speed = rest_speed;

@@ -147,6 +147,82 @@ static void what_lay_before_the_question_is_taken_back_with_it(void **state)
     toy_free(toy);
 }
 
+/* Two hits of spheres that slide on each other throughout, mu = 0.3: both get the spin mu P_n R / I
+ * from the whole impulse, however it is applied and with the bodies the other way round at every
+ * look; momenta are kept. */
+static void friction_spins_the_bodies(void **state)
+{
+    (void)state;
+    static const struct percuss_slow_body bodies[] = {{.id = "s0", .free = true},
+                                                      {.id = "s1", .free = true}};
+    const double mu = 0.3, moment = 4e-6, radius = 0.01;
+    for (int way = 0; way < 8; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.bodies = bodies;
+        wishes.application = way & 1 ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
+        wishes.engine.push = way & 2 ? toy_push : NULL;
+        wishes.engine.apply_vector = way & 2 ? NULL : toy_apply_vector;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->flips = way & 4;
+        toy->friction = mu;
+        toy->bodies[0].velocity[1] = 1.0; /* a, s1, is dragged along y */
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy->answer[0].friction = mu;
+        for (int i = 0; i < 2; i++) {
+            struct percuss_sub_impact *sub = &toy->answer[0].subs[0][i];
+            sub->impulse_tangential[0] = mu * sub->impulse;
+        }
+        const double middle[3] = {0.01, 0.0, 0.0};
+        double momentum = toy_momentum(toy->bodies, toy->inertias, 2, middle);
+        toy_step(toy, 0.0);
+        if (!(way & 1))
+            toy_run(toy, 0.02, 1e-3);
+        const double total = 0.014;
+        near(toy->bodies[1].velocity[1], mu * total / 0.1, 1e-15);
+        near(toy->bodies[0].velocity[1], 1.0 - mu * total / 0.1, 1e-15);
+        near(toy->bodies[1].velocity[0], total / 0.1, 1e-15);
+        /* of a list, the second hit comes when the spheres overlap: its arms are 1 % shorter */
+        bool at_once = way & 1;
+        if (at_once)
+            near(toy_momentum(toy->bodies, toy->inertias, 2, middle), momentum, 1e-15);
+        for (int i = 0; i < 2; i++)
+            near_relative(toy->bodies[i].angular_velocity[2], -mu * total * radius / moment,
+                          at_once ? 1e-12 : 0.01);
+        assert_true(toy->bodies[0].angular_velocity[0] == 0.0);
+        toy_free(toy);
+    }
+}
+
+/* The surface has turned when the second hit is played: its tangential part lies in the surface as
+ * it is by then, of the size that it has. */
+static void friction_turns_with_the_surface(void **state)
+{
+    (void)state;
+    static const struct percuss_slow_body bodies[] = {{.id = "s0", .free = true},
+                                                      {.id = "s1", .free = true}};
+    const double tilt = 0.05;
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.bodies = bodies;
+    wishes.engine.apply_vector = toy_apply_vector;
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 1;
+    toy->answer[0] = two_hits;
+    toy->answer[0].friction = 0.3;
+    toy->answer[0].subs[0][1].impulse_tangential[1] = 0.001; /* along z */
+    toy_step(toy, 0.0);
+    toy_run(toy, 1e-3, 1e-4);
+    const double before[3] = {0.08, 0.0, 0.0};
+    for (int k = 0; k < 3; k++)
+        near(toy->bodies[1].velocity[k], before[k], 1e-15);
+    toy->tilt = tilt;
+    toy_run(toy, 0.02, 1e-3);
+    near(toy->bodies[1].velocity[0], 0.08 + 0.06 * cos(tilt) - 0.01 * sin(tilt), 1e-15);
+    near(toy->bodies[1].velocity[2], 0.06 * sin(tilt) + 0.01 * cos(tilt), 1e-15);
+    near(toy->bodies[1].velocity[1], 0.0, 0.0);
+    toy_free(toy);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -154,6 +230,8 @@ int main(void)
         cmocka_unit_test(a_second_hit_revokes_the_list),
         cmocka_unit_test(a_sub_impact_under_way_is_asked_about_again),
         cmocka_unit_test(what_lay_before_the_question_is_taken_back_with_it),
+        cmocka_unit_test(friction_spins_the_bodies),
+        cmocka_unit_test(friction_turns_with_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,7 +146,11 @@ static void free_bodies_are_moved_as_by_velocities(void **state)
     memcpy(kicked, start, sizeof start);
     memcpy(moved, start, sizeof start);
     percuss_slow_free_apply(kicked, inertias, &contact, impulse);
+    const double moment[3] = {impulse * time * 0.6, 0.0, impulse * time * 0.8};
+    struct percuss_body_motion by_vector[2];
+    memcpy(by_vector, start, sizeof start);
     percuss_slow_free_move(moved, inertias, &contact, impulse * time);
+    percuss_slow_free_move_vector(by_vector, inertias, &contact, moment);
     for (int b = 0; b < 2; b++) {
         const double *q = start[b].orientation, *o = kicked[b].angular_velocity;
         /* q' = omega q / 2 */
@@ -154,6 +158,10 @@ static void free_bodies_are_moved_as_by_velocities(void **state)
             -o[0] * q[1] - o[1] * q[2] - o[2] * q[3], o[0] * q[0] + o[1] * q[3] - o[2] * q[2],
             o[1] * q[0] + o[2] * q[1] - o[0] * q[3], o[2] * q[0] + o[0] * q[2] - o[1] * q[1]};
         double angle = time * sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]), norm = 0.0;
+        for (int i = 0; i < 3; i++)
+            near(by_vector[b].position[i], moved[b].position[i], 1e-16);
+        for (int i = 0; i < 4; i++)
+            near(by_vector[b].orientation[i], moved[b].orientation[i], 1e-15);
         for (int i = 0; i < 3; i++)
             near(moved[b].position[i] - start[b].position[i], time * kicked[b].velocity[i], 1e-16);
         for (int i = 0; i < 4; i++) {
@@ -217,6 +225,100 @@ static void free_bodies_keep_their_momentum(void **state)
     near(W, 10.0 + 1.25 + 0.25 / 0.07, 1e-12);
 }
 
+/* A solid sphere that slides throughout an impact on a wall: spin = mu P_n R / I, and of the energy
+ * friction takes mu P_n times the mean slip, with 3.5/m for the sphere's tangential inverse mass.
+ */
+static void a_sliding_sphere_gets_spin(void **state)
+{
+    (void)state;
+    const double mass = 0.111, radius = 0.015, mu = 0.3, speed = 0.2, slip = 0.5, e = 0.7;
+    const double moment = 0.4 * mass * radius * radius, impulse = (1.0 + e) * mass * speed;
+    struct percuss_body_motion bodies[2] = {
+        {.orientation = {1.0}, .position = {0.0, 0.0, radius}, .velocity = {slip, 0.0, -speed}},
+        {.orientation = {1.0}}};
+    const struct percuss_slow_inertia inertias[2] = {{mass, {moment, moment, moment}},
+                                                     {INFINITY, {0.0, 0.0, 0.0}}};
+    const struct percuss_slow_contact contact = {.a = 0, .b = 1, .normal = {0.0, 0.0, 1.0}};
+    const double vector[3] = {-mu * impulse, 0.0, impulse};
+    percuss_slow_free_apply_vector(bodies, inertias, &contact, vector);
+    const double *v = bodies[0].velocity, *o = bodies[0].angular_velocity;
+    near(o[1], mu * impulse * radius / moment, 1e-12);
+    assert_true(o[0] == 0.0 && o[2] == 0.0 && v[1] == 0.0);
+    near(v[0], slip - mu * impulse / mass, 1e-16);
+    near(v[2], e * speed, 1e-15);
+    /* about the touched point, where the impulse has no moment */
+    near(moment * o[1] + mass * radius * v[0], mass * radius * slip, 1e-17);
+    double after = slip - 3.5 * mu * impulse / mass; /* still sliding */
+    near(v[0] - radius * o[1], after, 1e-15);
+    double left = 0.5 * mass * (v[0] * v[0] + v[2] * v[2]) + 0.5 * moment * o[1] * o[1];
+    double lost = 0.5 * mass * (1.0 - e * e) * speed * speed + mu * impulse * 0.5 * (slip + after);
+    near(left, 0.5 * mass * (slip * slip + speed * speed) - lost, 1e-16);
+    assert_true(bodies[1].velocity[0] == 0.0 && bodies[1].angular_velocity[1] == 0.0);
+}
+
+static double kinetic(const struct percuss_body_motion *body,
+                      const struct percuss_slow_inertia *inertia)
+{
+    /* the rates about the principal axes, by the conjugate quaternion */
+    double w = body->orientation[0], n = 0.0, sum = 0.0;
+    const double *u = body->orientation + 1, *o = body->angular_velocity;
+    double twice[3];
+    for (int k = 0; k < 4; k++)
+        n += body->orientation[k] * body->orientation[k];
+    for (int k = 0; k < 3; k++)
+        twice[k] = 2.0 * (o[(k + 1) % 3] * u[(k + 2) % 3] - o[(k + 2) % 3] * u[(k + 1) % 3]) / n;
+    for (int k = 0; k < 3; k++) {
+        int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        double rate = o[k] + w * twice[k] + twice[k1] * u[k2] - twice[k2] * u[k1];
+        sum += 0.5 * inertia->moments[k] * rate * rate +
+               0.5 * inertia->mass * body->velocity[k] * body->velocity[k];
+    }
+    return sum;
+}
+
+/* Momenta are kept, the energy changes by the impulse times the mean relative velocity of the
+ * points, and an impulse along the normal is the one that percuss_slow_free_apply gives. */
+static void an_impulse_of_any_direction_keeps_the_books(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    const struct percuss_slow_inertia inertias[2] = {{0.111, {1e-2, 2e-2, 1.5e-2}},
+                                                     {0.848, {4e-2, 0.07, 0.06}}};
+    for (int trial = 0; trial < 200; trial++) {
+        struct percuss_body_motion bodies[2] = {{.id = "a"}, {.id = "b"}}, other[2];
+        struct percuss_slow_contact axes[3] = {{.b = 1}, {.b = 1}, {.b = 1}};
+        double impulse[3], before[3], after[3], work = 0.0;
+        for (int b = 0; b < 2; b++)
+            for (int k = 0; k < 4; k++) {
+                bodies[b].orientation[k] = uniform(&seed);
+                bodies[b].position[k % 3] = uniform(&seed);
+                bodies[b].velocity[k % 3] = uniform(&seed);
+                bodies[b].angular_velocity[k % 3] = uniform(&seed);
+            }
+        for (int k = 0; k < 3; k++) {
+            impulse[k] = 0.02 * uniform(&seed);
+            axes[0].point[k] = axes[1].point[k] = axes[2].point[k] = uniform(&seed);
+            axes[k].normal[k] = 1.0;
+        }
+        memcpy(other, bodies, sizeof other);
+        percuss_slow_gap_rates(bodies, 3, axes, before);
+        double momentum = toy_momentum(bodies, inertias, 2, axes[0].point);
+        double energy = kinetic(&bodies[0], &inertias[0]) + kinetic(&bodies[1], &inertias[1]);
+        percuss_slow_free_apply_vector(bodies, inertias, &axes[0], impulse);
+        percuss_slow_gap_rates(bodies, 3, axes, after);
+        near(toy_momentum(bodies, inertias, 2, axes[0].point), momentum, 1e-12);
+        for (int k = 0; k < 3; k++)
+            work += impulse[k] * 0.5 * (before[k] + after[k]);
+        near(kinetic(&bodies[0], &inertias[0]) + kinetic(&bodies[1], &inertias[1]) - energy, work,
+             1e-12);
+        for (int k = 0; k < 3; k++)
+            percuss_slow_free_apply(other, inertias, &axes[k], impulse[k]);
+        percuss_slow_gap_rates(other, 3, axes, before);
+        for (int k = 0; k < 3; k++)
+            near(before[k], after[k], 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -226,6 +328,8 @@ int main(void)
         cmocka_unit_test(nothing_sinks_in_and_no_energy_comes),
         cmocka_unit_test(free_bodies_are_moved_as_by_velocities),
         cmocka_unit_test(free_bodies_keep_their_momentum),
+        cmocka_unit_test(a_sliding_sphere_gets_spin),
+        cmocka_unit_test(an_impulse_of_any_direction_keeps_the_books),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

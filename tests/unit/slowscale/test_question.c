@@ -213,6 +213,85 @@ static void a_cut_off_window_is_not_final(void **state)
     toy_free(toy);
 }
 
+/* Free bodies in the way of friction: the question has the coefficient and the tangent, and no
+ * matrix; with one body that is not free it has the matrix and no friction, as ever. */
+static void free_bodies_are_asked_about_with_friction(void **state)
+{
+    (void)state;
+    static const struct percuss_slow_body bodies[] = {{.id = "s0", .free = true},
+                                                      {.id = "s1", .free = true}};
+    static const struct percuss_slow_body held[] = {{.id = "s0", .free = true}, {.id = "s1"}};
+    for (int way = 0; way < 4; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.bodies = way == 2 ? held : bodies;
+        wishes.engine.push = way == 1 ? toy_push : NULL;
+        wishes.engine.apply_vector = way == 1 ? NULL : toy_apply_vector;
+        wishes.options.friction = way == 3 ? PERCUSS_FRICTION_NONE : PERCUSS_FRICTION_PLAIN;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy->friction = way == 2 ? 0.0 : 0.3;
+        toy->tangent[2] = 1.0;
+        toy_step(toy, 0.0);
+        const struct percuss_request *question = &toy->question[0];
+        bool rubs = way < 2;
+        assert_true((question->delassus == NULL) == rubs);
+        assert_int_equal(question->options.friction,
+                         rubs ? PERCUSS_FRICTION_PLAIN : PERCUSS_FRICTION_NONE);
+        near(question->contacts[0].friction, rubs ? 0.3 : 0.0, 0.0);
+        near(question->contacts[0].tangent[2], rubs ? 1.0 : 0.0, 0.0);
+        if (!rubs)
+            near(toy->matrix[0][0], 20.0, 1e-12);
+        toy_free(toy);
+    }
+}
+
+/* A coefficient that would be dropped is refused, and so are bodies of other masses; nothing has
+ * happened then. */
+static void friction_that_cannot_be_is_refused_by_name(void **state)
+{
+    (void)state;
+    static const struct {
+        struct percuss_slow_body bodies[2];
+        bool scalar; /* the engine takes impulses along normals alone */
+        double inverse_mass;
+        const char *text;
+    } cases[] = {
+        {{{.id = "s0", .free = true}, {.id = "s1"}},
+         false,
+         0.0,
+         "contact of s1 and s0: friction: 0.3: s1 is not stated to be free: 0, or options.friction "
+         "none, is allowed"},
+        {{{.id = "s0", .fixed = true}, {.id = "s1", .fixed = true}},
+         false,
+         0.0,
+         "s0 is fixed, and so is the other one"},
+        {{{.id = "s0", .free = true}, {.id = "s1", .free = true}},
+         true,
+         0.0,
+         "friction: 0.3: the engine must give apply_vector or push"},
+        {{{.id = "s0", .free = true}, {.id = "s1", .free = true}},
+         false,
+         19.5,
+         "the inverse effective mass is 20 1/kg in the engine and 19.5 1/kg in the catalogue"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.bodies = cases[i].bodies;
+        wishes.engine.apply_vector = cases[i].scalar ? NULL : toy_apply_vector;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy->answer[0].inverse_mass = cases[i].inverse_mass;
+        toy->friction = 0.3;
+        assert_int_equal(advance(toy), PERCUSS_RESULT_INVALID_ARGUMENT);
+        if (!strstr(percuss_slow_error_text(), cases[i].text))
+            fail_msg("%s", percuss_slow_error_text());
+        near(toy->bodies[0].velocity[0], 0.2, 0.0);
+        toy_free(toy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +301,8 @@ int main(void)
         cmocka_unit_test(without_an_answer_nothing_happens_and_the_engine_may_try_again),
         cmocka_unit_test(a_list_that_could_not_be_replaced_goes_on),
         cmocka_unit_test(a_cut_off_window_is_not_final),
+        cmocka_unit_test(free_bodies_are_asked_about_with_friction),
+        cmocka_unit_test(friction_that_cannot_be_is_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,7 +184,8 @@ static void a_fixed_body_does_not_couple(void **state)
     (void)state;
     for (int fixed = 0; fixed < 2; fixed++) {
         struct percuss_slow_config wishes = toy_wishes();
-        wishes.bodies = (struct percuss_slow_body[]){{"s0", false}, {"wall", fixed}, {"s2", false}};
+        wishes.bodies = (struct percuss_slow_body[]){
+            {.id = "s0"}, {.id = "wall", .fixed = fixed}, {.id = "s2"}};
         struct toy *toy = toy_create(3, &wishes);
         toy->inertias[1].mass = INFINITY;
         toy->bodies[2].velocity[0] = -0.1;
@@ -252,13 +253,18 @@ static void bad_settings_are_named(void **state)
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "body_count: 0"));
     config.body_count = 1;
-    config.bodies = &(struct percuss_slow_body){"sphere", false};
+    config.bodies = &(struct percuss_slow_body){.id = "sphere"};
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "engine"));
-    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now, toy_push};
+    config.engine = (struct percuss_slow_engine){
+        .probe = toy_probe, .apply = toy_apply, .now = toy_now, .push = toy_push};
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "one of apply and push"));
-    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now, NULL};
+    config.engine.apply = NULL;
+    config.engine.apply_vector = toy_apply_vector;
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
+    config.engine =
+        (struct percuss_slow_engine){.probe = toy_probe, .apply = toy_apply, .now = toy_now};
     config.restitution = 1.5;
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "restitution: 1.5"));

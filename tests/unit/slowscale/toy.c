@@ -56,11 +56,16 @@ size_t toy_contacts(struct toy *toy, struct percuss_slow_contact *contacts)
                                           .point = {toy->bodies[i].position[0] + 0.5 * apart},
                                           .normal = {1.0},
                                           .feature = i,
-                                          .gap = apart - 2.0 * toy->radius};
+                                          .gap = apart - 2.0 * toy->radius,
+                                          .friction = toy->friction};
+        contacts[n - 1].normal[0] = cos(toy->tilt);
+        contacts[n - 1].normal[2] = sin(toy->tilt);
+        memcpy(contacts[n - 1].tangent, toy->tangent, sizeof toy->tangent);
         if (flipped) {
             contacts[n - 1].a = i;
             contacts[n - 1].b = i + 1;
-            contacts[n - 1].normal[0] = -1.0;
+            contacts[n - 1].normal[0] *= -1.0;
+            contacts[n - 1].normal[2] *= -1.0;
         }
     }
     return n;
@@ -85,6 +90,14 @@ bool toy_apply(void *context, const struct percuss_slow_contact *contact, double
     struct toy *toy = context;
     percuss_slow_free_apply(toy->bodies, toy->inertias, contact, impulse);
     toy->applied[contact->feature] += impulse;
+    return true;
+}
+
+bool toy_apply_vector(void *context, const struct percuss_slow_contact *contact,
+                      const double impulse[3])
+{
+    struct toy *toy = context;
+    percuss_slow_free_apply_vector(toy->bodies, toy->inertias, contact, impulse);
     return true;
 }
 
@@ -145,10 +158,15 @@ static void toy_fill(const struct toy_answer *answer, const struct percuss_reque
     for (size_t i = 0; i < request->contact_count; i++) {
         struct percuss_contact_result *contact = &reply->contacts[i];
         contact->sub_impact_count = contact->sub_impacts_listed = answer->count[i];
+        contact->inverse_effective_mass = answer->inverse_mass > 0.0 ? answer->inverse_mass : 20.0;
+        contact->friction = answer->friction;
+        contact->tangent[1] = answer->friction > 0.0 ? 1.0 : 0.0;
         contact->sub_impacts = calloc(TOY_SUBS, sizeof *contact->sub_impacts);
         memcpy(contact->sub_impacts, answer->subs[i], sizeof answer->subs[i]);
         for (uint32_t j = 0; j < answer->count[i]; j++) {
             contact->impulse += answer->subs[i][j].impulse;
+            for (int k = 0; k < 2; k++)
+                contact->impulse_tangential[k] += answer->subs[i][j].impulse_tangential[k];
             contact->end_time = answer->subs[i][j].end;
             contact->sub_impacts[j].compression_impulse = 0.5 * answer->subs[i][j].impulse;
         }
@@ -189,7 +207,7 @@ static void toy_report(void *context, const struct percuss_slow_report *report)
 struct toy *toy_create(size_t count, const struct percuss_slow_config *wishes)
 {
     static const struct percuss_slow_body names[TOY_BODIES] = {
-        {"s0", false}, {"s1", false}, {"s2", false}, {"s3", false}};
+        {.id = "s0"}, {.id = "s1"}, {.id = "s2"}, {.id = "s3"}};
     struct toy *toy = calloc(1, sizeof *toy);
     assert_non_null(toy);
     toy->count = count;
@@ -203,9 +221,13 @@ struct toy *toy_create(size_t count, const struct percuss_slow_config *wishes)
     struct percuss_slow_config config = *wishes;
     config.body_count = count;
     config.bodies = wishes->bodies ? wishes->bodies : names;
-    bool (*push)(void *, uint32_t, const double *, const double *) = wishes->engine.push;
-    config.engine =
-        (struct percuss_slow_engine){toy, toy_probe, push ? NULL : toy_apply, toy_now, push};
+    const struct percuss_slow_engine *wish = &wishes->engine;
+    config.engine = (struct percuss_slow_engine){.context = toy,
+                                                 .probe = toy_probe,
+                                                 .apply = wish->push ? NULL : toy_apply,
+                                                 .now = toy_now,
+                                                 .push = wish->push,
+                                                 .apply_vector = wish->apply_vector};
     config.report = toy_report;
     config.report_context = toy;
     if (config.service.solve)

@@ -26,6 +26,8 @@ struct toy_answer {
     bool truncated, spent; /* at the horizon; for the effort */
     double window;
     const char *revision; /* of its catalogue; NULL: not said */
+    double friction;      /* its sub-impacts have tangential impulses, along y and z */
+    double inverse_mass;  /* of every contact; 0: that of two of the spheres */
     uint32_t count[TOY_BODIES];
     struct percuss_sub_impact subs[TOY_BODIES][TOY_SUBS];
 };
@@ -43,6 +45,8 @@ struct toy {
     double radius;
     bool flips; /* at every look, the contacts have their bodies the other way round */
     size_t looks;
+    double friction, tangent[3]; /* of all contacts */
+    double tilt;                 /* rad, of all normals about y */
     size_t count;
     struct percuss_body_motion bodies[TOY_BODIES];
     struct percuss_slow_inertia inertias[TOY_BODIES];
@@ -65,6 +69,8 @@ size_t toy_contacts(struct toy *toy, struct percuss_slow_contact *contacts);
 bool toy_probe(void *context, struct percuss_slow_view *view);
 bool toy_apply(void *context, const struct percuss_slow_contact *contact, double impulse);
 bool toy_push(void *context, uint32_t body, const double impulse[3], const double point[3]);
+bool toy_apply_vector(void *context, const struct percuss_slow_contact *contact,
+                      const double impulse[3]);
 bool toy_shift(void *context, const struct percuss_slow_contact *contact, double moment);
 double toy_now(void *context);
 
