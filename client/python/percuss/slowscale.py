@@ -51,12 +51,13 @@ class _Feature(request.ContactPlace):
 @dataclass
 class Contact(request.Contact, _Feature):  # in this order `feature` is the seventh argument
     """Two bodies that touch, or nearly; a and b are indices of the engine's bodies. The normal points from b to a.
-    Impulses of the slow scale are along normals: friction and tangent are not read."""
+    friction and tangent: as of a request, where both bodies are `free` or `fixed`."""
 
 
 class Engine:
     """What the slow scale must know and do. To be derived from: `now`, `gap_rates`, `delassus`, `motion`, one of
-    `apply` and `push`, and better with `move`. All at the present state."""
+    `apply` and `push`, and better with `move`; for friction with `apply_vector` and `move_vector` or `push`. All at the
+    present state."""
 
     def now(self) -> float:
         """Time of the simulation, s."""
@@ -82,10 +83,19 @@ class Engine:
         """Instead of `apply`: an impulse, N s, on one body at a point. Called for a, then with the opposite for b."""
         raise NotImplementedError("push")
 
+    def apply_vector(self, contact: Contact, impulse: FloatArray) -> None:
+        """Beside `apply`, or instead: an impulse with all components, N s, world, on a at the contact's point, and
+        against it on b. Called where an impulse has a tangential part, by friction."""
+        raise NotImplementedError("apply_vector")
+
     def move(self, contact: Contact, moment: float) -> None:
         """Optional: changes the positions by M^-1 w moment, N s^2. Impulses of ringing bodies often lie before the
         instant of the question; applied late without it, they take energy."""
         raise NotImplementedError("move")
+
+    def move_vector(self, contact: Contact, moment: FloatArray) -> None:
+        """Beside `move`, or instead: as `apply_vector` is to `apply`."""
+        raise NotImplementedError("move_vector")
 
 
 @dataclass(frozen=True)
@@ -96,6 +106,9 @@ class Body:
     """In the service's catalogue."""
     fixed: bool = False
     """Holds still whatever hits it: does not couple the impacts on it."""
+    free: bool = False
+    """No joint holds it, and its inertia is the catalogue's. An impact has friction where all of its bodies are free or
+    fixed; the service then takes the catalogue's inverse masses, and compares."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +159,7 @@ class Inertia:
 
 
 def _read_contact(source: Any) -> Contact:
-    return _convert.read(source, Contact, friction=0.0, tangent=(0.0, 0.0, 0.0))
+    return _convert.read(source, Contact)
 
 
 def _write_contacts(contacts: Sequence[Contact]) -> Any:
@@ -226,16 +239,26 @@ class _Callbacks:
 
         config.engine.probe = abi.Probe(lambda _, view: call(lambda: self._probe(view.contents)))
         config.engine.now = abi.Now(lambda _: self._now())
+        def vector(function: Callable[[Contact, FloatArray], None]) -> Any:
+            return abi.ApplyVector(
+                lambda _, contact, numbers: call(lambda: function(_read_contact(contact.contents), _array(numbers, 3)))
+            )
+
         if has("apply"):
             config.engine.apply = abi.Apply(
                 lambda _, contact, impulse: call(lambda: engine.apply(_read_contact(contact.contents), impulse))
             )
+        # who pushes each body needs none of the pair
+        if has("apply_vector") and not has("push"):
+            config.engine.apply_vector = vector(engine.apply_vector)
         if has("push"):
             config.engine.push = abi.Push(lambda _, *push: call(lambda: self._push(*push)))
         if has("move"):
             config.move = abi.Apply(
                 lambda _, contact, moment: call(lambda: engine.move(_read_contact(contact.contents), moment))
             )
+        if has("move_vector"):
+            config.move_vector = vector(engine.move_vector)
         if report is not None:
             config.report = abi.ReportFunction(
                 lambda _, what: (call(lambda: report(_read_report(what.contents))), None)[1]
@@ -271,7 +294,7 @@ class SlowScale:
         self._callbacks = _Callbacks(engine, report)
         self._client = client
         known = [body if isinstance(body, Body) else Body(body) for body in bodies]
-        names = (abi.Body * len(known))(*[abi.Body(body.id.encode(), body.fixed) for body in known])
+        names = (abi.Body * len(known))(*[abi.Body(body.id.encode(), body.fixed, body.free) for body in known])
         config = _library.percuss_slow_config_default()
         config.body_count, config.bodies = len(known), names
         self._callbacks.fill(config)

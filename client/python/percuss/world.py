@@ -117,8 +117,16 @@ class FreeBodies(World):
     def apply(self, contact: Contact, impulse: float) -> None:
         _library.percuss_slow_free_apply(self._bodies, self._inertias, _write_contacts([contact]), impulse)
 
+    def apply_vector(self, contact: Contact, impulse: FloatArray) -> None:
+        numbers = (ctypes.c_double * 3)(*impulse.tolist())
+        _library.percuss_slow_free_apply_vector(self._bodies, self._inertias, _write_contacts([contact]), numbers)
+
     def move(self, contact: Contact, moment: float) -> None:
         _library.percuss_slow_free_move(self._bodies, self._inertias, _write_contacts([contact]), moment)
+
+    def move_vector(self, contact: Contact, moment: FloatArray) -> None:
+        numbers = (ctypes.c_double * 3)(*moment.tolist())
+        _library.percuss_slow_free_move_vector(self._bodies, self._inertias, _write_contacts([contact]), numbers)
 
     def step(self, size: float) -> None:
         """Goes on by `size`, s: on parabolas, exactly, and turning by the midpoint rule, exactly about a principal

@@ -16,11 +16,11 @@ import percuss
 from percuss import slowscale
 from percuss.request import FloatArray
 from percuss.slowscale import Application, Body, Contact, Engine, Report, SlowScale
-from percuss.world import run
+from percuss.world import rotation, run
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "examples"))
 from bounces import bounce
-from two_spheres import Spheres, hit
+from two_spheres import BALL, Spheres, hit
 
 CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
 
@@ -68,6 +68,39 @@ class Paired(Line):
 
     def apply(self, contact: Contact, impulse: float) -> None:
         self.velocity += np.array([-impulse, impulse]) / 0.1
+
+
+class Rubbing(Spheres):
+    """A ball that comes down on the beam 100 mm beside its middle, and slides across it; no gravity."""
+
+    def __init__(self, client: percuss.Client, slide: float, friction: float) -> None:
+        super().__init__(client.bodies(), [0.1], 0.2, 2e-4)
+        self.ball, self.friction, self.drift = client.bodies()["steel-sphere"], friction, 0.0
+        # above the axis when it touches, after 1 ms
+        self._bodies[1].position[1] = -1e-3 * slide
+        self._bodies[1].velocity = (0.0, slide, -0.2)
+
+    def contacts(self) -> list[Contact]:
+        found = super().contacts()
+        for contact in found:
+            contact.friction, contact.tangent = self.friction, np.array([0.0, 1.0, 0.0])
+        return found
+
+    def apply_vector(self, contact: Contact, impulse: FloatArray) -> None:
+        """Keeps the angular momentum about the contact's point."""
+        before = self.angular_momentum(contact.point)
+        super().apply_vector(contact, impulse)
+        self.drift = max(self.drift, float(np.abs(self.angular_momentum(contact.point) - before).max()))
+
+    def angular_momentum(self, about: FloatArray) -> FloatArray:
+        total = np.zeros(3)
+        for index, inertia in enumerate(self._inertias):
+            motion = self.motion(index)
+            arm = motion.position - about
+            r = rotation(motion.orientation)
+            total += inertia.mass * np.cross(arm, motion.velocity)
+            total += r @ (np.array(inertia.moments) * (r.T @ motion.angular_velocity))
+        return total
 
 
 def play(world: Line, slow: SlowScale, end: float) -> None:
@@ -208,6 +241,49 @@ class Asking(unittest.TestCase):
             ours, theirs = (hit(client, (0.3, 0.45))[0][0] for client in (self.client, daemon))
         self.assertEqual(ours.impulse.tolist(), theirs.impulse.tolist())
         self.assertEqual(ours.restitution.tolist(), theirs.restitution.tolist())
+
+    def test_friction_acts_with_all_components(self) -> None:
+        """A ball that slides throughout: spin = mu P_n R / I; both momenta are kept, and the energy is that of the
+        service's books."""
+        for application in Application:
+            world, mu = Rubbing(self.client, 1.0, 0.1), 0.1
+            reports: list[Report] = []
+            bodies = [Body("al-beam", free=True), Body("steel-sphere", free=True)]
+            with SlowScale(bodies, world, self.client, application=application, report=reports.append) as slow:
+                energy = world.energy()
+                run(world, slow, 0.05, 1e-3)
+            (report,) = reports
+            assert report.reply
+            answer, books = report.reply.contacts[0], report.reply.energy
+            self.assertEqual(report.reply.delassus_source, percuss.DelassusSource.SERVICE)
+            self.assertEqual((answer.friction, answer.friction_state.name, report.message), (mu, "SLID", ""))
+            self.assertAlmostEqual(answer.impulse_tangential[0] / answer.impulse, -mu, delta=1e-5)
+            # the lever is the radius but for the overlap while a list is played
+            total = application is Application.TOTAL
+            spin = -mu * answer.impulse * BALL / world.ball.inertia[0]
+            self.assertAlmostEqual(world.motion(1).angular_velocity[0] / spin, 1.0, delta=1e-5 if total else 1e-3)
+            dragged = world.masses[1] * (world.motion(1).velocity - np.array([0.0, 1.0, -0.2]))
+            np.testing.assert_allclose(dragged, answer.impulse_vector, atol=1e-12 if total else 1e-4)
+            np.testing.assert_allclose(world.masses[0] * world.motion(0).velocity, -dragged, atol=1e-15)
+            self.assertLess(world.drift, 1e-14)
+            lost = books.available - books.rigid_after
+            # until the second hit of a list the ball slides some mm along the beam's roundness
+            self.assertAlmostEqual((energy - world.energy()) / lost, 1.0, delta=1e-4 if total else 0.05)
+            self.assertGreater(books.friction, 0.2 * lost)
+
+    def test_friction_of_a_body_that_joints_hold(self) -> None:
+        """A coefficient that would be dropped is refused by name; options.friction none drops it."""
+        bodies = [Body("al-beam"), Body("steel-sphere", free=True)]
+        world = Rubbing(self.client, 1.0, 0.1)
+        with SlowScale(bodies, world, self.client) as slow:
+            with self.assertRaisesRegex(percuss.InvalidArgument, "friction: 0.1: al-beam is not stated to be free"):
+                run(world, slow, 0.05, 1e-3)
+        world = Rubbing(self.client, 1.0, 0.1)
+        none = percuss.Options(friction=percuss.Friction.NONE)
+        with SlowScale(bodies, world, self.client, options=none) as slow:
+            run(world, slow, 0.05, 1e-3)
+        self.assertEqual(world.motion(1).velocity[1], 1.0)
+        self.assertGreater(world.motion(1).velocity[2], -0.1)
 
     def test_a_group(self) -> None:
         """Two spheres at one instant are one question, and neither has its e alone."""
