@@ -18,7 +18,7 @@ import numpy as np
 
 import percuss
 from percuss.request import FloatArray
-from percuss.slowscale import Contact, Report, SlowScale
+from percuss.slowscale import Body, Contact, Report, SlowScale
 from percuss.world import World, run
 
 # contype 0, conaffinity 0: the bodies pass through each other as far as MuJoCo is concerned
@@ -47,6 +47,8 @@ class Pair:
     other: str
     sphere_id: str = "steel-sphere"
     other_id: str = "al-beam"
+    friction: float = 0.0
+    """Coefficient; above 0 both must be bodies that no joint holds, as heavy as the catalogue's."""
 
 
 class Simulation(World):
@@ -60,6 +62,18 @@ class Simulation(World):
         self.geoms, self.ids = list(ids), list(ids.values())
         """A body of the slow scale is an index into these."""
         mujoco.mj_forward(self.model, self.data)
+
+    def bodies(self) -> list[Body]:
+        """For the slow scale; with friction only impacts of free bodies can be asked about."""
+        rub = {name for pair in self.pairs if pair.friction > 0.0 for name in (pair.sphere, pair.other)}
+        return [Body(id, free=name in rub and self._is_free(name)) for name, id in zip(self.geoms, self.ids)]
+
+    def _is_free(self, geom: str) -> bool:
+        """Whether a free joint is all that the body has, and nothing hangs on it."""
+        body = self.model.geom(geom).bodyid[0]
+        joint = self.model.body_jntadr[body]
+        free = joint >= 0 and self.model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+        return bool(free and not self.model.neq and body not in self.model.body_parentid[body + 1 :])
 
     # time
 
@@ -100,7 +114,8 @@ class Simulation(World):
         # from the centre, not along the segment, which vanishes when they touch
         normal = self.data.geom(pair.sphere).xpos - segment[3:]
         normal /= np.linalg.norm(normal)
-        return Contact(self.geoms.index(pair.sphere), self.geoms.index(pair.other), segment[3:], normal, gap)
+        indices = self.geoms.index(pair.sphere), self.geoms.index(pair.other)
+        return Contact(*indices, segment[3:], normal, gap, friction=pair.friction)
 
     def motion(self, body: int) -> percuss.BodyMotion:
         """A capsule is a rod or beam along its axis, which is z here and x there."""
@@ -116,15 +131,21 @@ class Simulation(World):
 
     # mechanics
 
+    def relative(self, contact: Contact) -> FloatArray:
+        """Three rows J: the velocity of the point of a against that of b is J qvel."""
+        rows = np.zeros((3, self.model.nv))
+        for index, sign in ((contact.a, 1.0), (contact.b, -1.0)):
+            jacobian = np.zeros_like(rows)
+            body = self.model.geom(self.geoms[index]).bodyid[0]
+            mujoco.mj_jac(self.model, self.data, jacobian, None, contact.point, body)
+            rows += sign * jacobian
+        return rows
+
     def directions(self, contacts: Sequence[Contact]) -> FloatArray:
         """w of each contact as rows: the gap rate is w . qvel."""
         w = np.zeros((len(contacts), self.model.nv))
         for row, contact in zip(w, contacts):
-            for index, sign in ((contact.a, 1.0), (contact.b, -1.0)):
-                jacobian = np.zeros((3, self.model.nv))
-                body = self.model.geom(self.geoms[index]).bodyid[0]
-                mujoco.mj_jac(self.model, self.data, jacobian, None, contact.point, body)
-                row += sign * (contact.normal @ jacobian)
+            row += contact.normal @ self.relative(contact)
         return w
 
     def inverse_mass_times(self, rows: FloatArray) -> FloatArray:
@@ -150,14 +171,21 @@ class Simulation(World):
         symmetric: FloatArray = 0.5 * (matrix + matrix.T)
         return symmetric
 
+    def apply_vector(self, contact: Contact, impulse: FloatArray) -> None:
+        """M^-1 (w_n P_n + w_t P_t): the impulse by all three rows of the Jacobian."""
+        self.data.qvel += self.inverse_mass_times((impulse @ self.relative(contact))[np.newaxis])[0]
+        mujoco.mj_forward(self.model, self.data)
+
     def apply(self, contact: Contact, impulse: float) -> None:
-        self.data.qvel += impulse * self.inverse_mass_times(self.directions([contact]))[0]
+        self.apply_vector(contact, impulse * contact.normal)
+
+    def move_vector(self, contact: Contact, moment: FloatArray) -> None:
+        response = self.inverse_mass_times((moment @ self.relative(contact))[np.newaxis])[0]
+        mujoco.mj_integratePos(self.model, self.data.qpos, response, 1.0)
         mujoco.mj_forward(self.model, self.data)
 
     def move(self, contact: Contact, moment: float) -> None:
-        response = self.inverse_mass_times(self.directions([contact]))[0]
-        mujoco.mj_integratePos(self.model, self.data.qpos, response, moment)
-        mujoco.mj_forward(self.model, self.data)
+        self.move_vector(contact, moment * contact.normal)
 
 
 def hinged_bar(speed: float = 0.2) -> Simulation:
@@ -172,7 +200,7 @@ def simulate(client: percuss.Client, simulation: Simulation, end: float, toleran
     """The impacts up to `end`, s, with e to the tolerance."""
     reports: list[Report] = []
     options = percuss.Options(tolerance=tolerance)
-    with SlowScale(simulation.ids, simulation, client, options=options, report=reports.append) as slow:
+    with SlowScale(simulation.bodies(), simulation, client, options=options, report=reports.append) as slow:
         run(simulation, slow, end, 1e-3)
     return reports
 

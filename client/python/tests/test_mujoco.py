@@ -1,11 +1,14 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-"""examples/mujoco_pendulum.py: MuJoCo asks the daemon in DDS domain PERCUSS_DOMAIN at every impact."""
+"""examples/mujoco_pendulum.py and mujoco_spin.py: MuJoCo asks the daemon in DDS domain PERCUSS_DOMAIN at every impact."""
 
+import contextlib
+import io
 import os
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -16,6 +19,9 @@ from percuss.world import run
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "examples"))
 import mujoco
 from mujoco_pendulum import HINGED_BAR, Pair, Simulation, hinged_bar, simulate
+from mujoco_spin import BALL
+from mujoco_spin import main as print_throws
+from mujoco_spin import throw
 
 # the bar is free but for its end, which two soft connects hold: five equations of rank, six rows
 PINNED_BAR = (
@@ -48,6 +54,12 @@ def set_speeds(simulation: Simulation, columns: list[int], speed: float) -> Simu
     simulation.data.qvel[columns] = speed
     mujoco.mj_forward(simulation.model, simulation.data)
     return simulation
+
+
+def kinetic_energy(simulation: Simulation) -> float:
+    momentum = np.zeros(simulation.model.nv)
+    mujoco.mj_mulM(simulation.model, simulation.data, momentum, simulation.data.qvel)
+    return 0.5 * float(momentum @ simulation.data.qvel)
 
 
 class Mujoco(unittest.TestCase):
@@ -141,6 +153,45 @@ class Mujoco(unittest.TestCase):
         self.assertEqual(reply.delassus_source, percuss.DelassusSource.SERVICE)
         ours = [contact.inverse_effective_mass for contact in reply.contacts]
         np.testing.assert_allclose(ours, np.diag(simulation.delassus(contacts)), rtol=1e-5)
+
+    def test_spinning_ball(self) -> None:
+        """Friction acts on both bodies of MuJoCo: what the ball gets the beam loses, its spin is that of the impulse's
+        lever, and the energy is that of the service's books."""
+        for spin in (-30.0, 0.0, 30.0):
+            after, simulation = throw(self.client, spin)
+            ball = self.client.bodies()["steel-sphere"]
+            before = 0.4 * np.array([0.0, 0.5, -np.sqrt(0.75)])
+            masses = simulation.model.body_mass[[2, 1]]
+            gained = masses[0] * (after.velocity - before)
+            np.testing.assert_allclose(masses[1] * simulation.motion(1).velocity, -gained, atol=1e-15)
+            # the normal turns with the beam while the list is played, by some mrad
+            np.testing.assert_allclose(gained, after.answer.impulse_vector, atol=3e-3 * after.answer.impulse)
+            turned = ball.inertia[0] * (after.spin - spin)
+            self.assertAlmostEqual(turned / (BALL * gained[1]), 1.0, delta=0.02)
+            books = after.energy
+            came = 0.5 * ball.mass * 0.4**2 + 0.5 * ball.inertia[0] * spin**2
+            lost = (came - kinetic_energy(simulation)) / (books.available - books.rigid_after)
+            self.assertAlmostEqual(lost, 1.0, delta=0.03)
+            self.assertGreater(books.friction, 1e-4)
+        # spin that rolls forward leaves flat, spin against it steep
+        angles = [throw(self.client, spin)[0].angle for spin in (-60.0, 0.0, 60.0)]
+        self.assertTrue(angles[0] > angles[1] > angles[2])
+
+    def test_spinning_ball_prints(self) -> None:
+        """As a user starts it; the rows are in the order of the spins."""
+        text = io.StringIO()
+        catalogue = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
+        with mock.patch.object(sys, "argv", ["", str(catalogue)]), contextlib.redirect_stdout(text):
+            print_throws()
+        rows = [line.split() for line in text.getvalue().splitlines()[1:]]
+        self.assertEqual([float(row[0]) for row in rows], [-60.0, -30.0, 0.0, 30.0, 60.0])
+        self.assertEqual({row[6] for row in rows}, {"slid", "reversed"})
+
+    def test_friction_needs_free_bodies(self) -> None:
+        simulation = hinged_bar()
+        simulation.pairs = [Pair("sphere", "bar", friction=0.3)]
+        with self.assertRaisesRegex(percuss.InvalidArgument, "friction: 0.3: .* is not stated to be free"):
+            simulate(self.client, simulation, 1.0)
 
 
 if __name__ == "__main__":
