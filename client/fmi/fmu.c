@@ -91,7 +91,7 @@ fmi3Status fmu_ask(struct fmu *fmu, const struct percuss_request *request, doubl
     if (!source_ask(fmu->source, request, impact, warning, message))
         return fmu_error(fmu, "%s", message);
     impact->gap_rate_before = gap_rate;
-    impact->gap_rate_after = -impact->restitution * gap_rate;
+    impact->gap_rate_after = -impact->rebound * gap_rate;
     /* a trial question is no impact */
     if (!fmu->log || !fmu->logs_impacts || fmu->mode == MODE_INITIALIZATION)
         return fmi3OK;

@@ -19,6 +19,8 @@ struct impact_law {
     struct pose a, b;
     double point[3], normal[3];
     double touch;
+    double friction;
+    double angular_a[3], angular_b[3]; /* N m s, of the last impact, about the centres of mass */
     /* not a variable: until the bodies have separated there is no other impact */
     int32_t waits;
 };
@@ -34,6 +36,12 @@ struct impact_law {
     LAW_INPUT(name "[1]", member[0], unit, 0.0, meaning " (by_poses)"),                            \
         LAW_INPUT(name "[2]", member[1], unit, 0.0, meaning " (by_poses)"),                        \
         LAW_INPUT(name "[3]", member[2], unit, 0.0, meaning " (by_poses)")
+#define LAW_RESULT(name, member, unit, meaning)                                                    \
+    {name "[1]", LAW(DISCRETE, FLOAT64, member[0], unit, 0.0, meaning " (by_poses)")},             \
+        {name "[2]", LAW(DISCRETE, FLOAT64, member[1], unit, 0.0, meaning " (by_poses)")},         \
+    {                                                                                              \
+        name "[3]", LAW(DISCRETE, FLOAT64, member[2], unit, 0.0, meaning " (by_poses)")            \
+    }
 #define LAW_POSE(body)                                                                             \
     LAW_VECTOR(#body ".position", body.position, "m", "centre of mass, world"),                    \
         LAW_INPUT(#body ".orientation[1]", body.orientation[0], NULL, 1.0,                         \
@@ -59,6 +67,15 @@ static const struct variable VARIABLES[] = {
     LAW_VECTOR("point", point, "m", "of the contact, world"),
     LAW_VECTOR("normal", normal, NULL, "of the contact, unit, from B to A, world"),
     {"touch", LAW(INDICATOR, FLOAT64, touch, "m", 0.0, "the gap")},
+    {"friction", LAW(PARAMETER, FLOAT64, friction, NULL, 0.0,
+                     "coefficient; 0: the catalogue's for the two materials, if any (by_poses)")},
+    LAW_RESULT("impulse_vector", shared.last.vector, "N.s",
+               "of the last impact: on A at the point, against it on B, world"),
+    LAW_RESULT("angular_impulse_a", angular_a, "N.m.s",
+               "its moment on A about the centre of mass, world"),
+    LAW_RESULT("angular_impulse_b", angular_b, "N.m.s", "the same on B"),
+    {"friction_loss",
+     LAW(DISCRETE, FLOAT64, shared.last.friction_loss, "J", 0.0, "by sliding in the last impact")},
 };
 
 /* m; so far from zero an importer's root of the indicator may be */
@@ -118,6 +135,32 @@ static fmi3Status request_by_poses(struct fmu *fmu, struct percuss_request *requ
     memcpy(contact->point, law->point, sizeof contact->point);
     memcpy(contact->normal, law->normal, sizeof contact->normal);
     request->options.tolerance = law->shared.tolerance;
+    contact->friction = law->friction;
+    return fmi3OK;
+}
+
+/* The moment about the body's centre of mass of `sign` times an impulse at the point. */
+static void take_moment(const double point[3], const struct pose *pose, double sign,
+                        const double impulse[3], double moment[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        moment[i] = sign * ((point[j] - pose->position[j]) * impulse[k] -
+                            (point[k] - pose->position[k]) * impulse[j]);
+    }
+}
+
+/* The simulator's own mass matrix excludes friction, which needs more than the normal's part. */
+static fmi3Status check_friction(struct fmu *fmu)
+{
+    const struct impact_law *law = (const struct impact_law *)fmu->numbers;
+    if (law->friction == 0.0)
+        return fmi3OK;
+    if (!law->by_poses)
+        return fmu_error(fmu, "friction: %g: only 0 is allowed without by_poses", law->friction);
+    if (law->inverse_effective_mass != 0.0)
+        return fmu_error(fmu, "friction: %g: only 0 is allowed with inverse_effective_mass",
+                         law->friction);
     return fmi3OK;
 }
 
@@ -145,25 +188,34 @@ static fmi3Status answer(struct fmu *fmu)
 
     /* the bodies as the importer has them */
     struct percuss_request request;
-    fmi3Status status =
-        law->by_poses ? request_by_poses(fmu, &request) : fmu_pair(fmu, -gap_rate, &request);
+    fmi3Status status = check_friction(fmu);
+    if (status != fmi3OK)
+        return status;
+    status = law->by_poses ? request_by_poses(fmu, &request) : fmu_pair(fmu, -gap_rate, &request);
     if (status != fmi3OK)
         return status;
     request.contacts[0].gap_acceleration = law->gap_acceleration;
     if (law->inverse_effective_mass < 0.0)
         return fmu_error(fmu, "inverse_effective_mass: %g: a number > 0 is needed, or 0",
                          law->inverse_effective_mass);
-    if (law->inverse_effective_mass != 0.0)
+    if (law->inverse_effective_mass != 0.0) {
         request.delassus = &law->inverse_effective_mass;
+        request.options.friction = PERCUSS_FRICTION_NONE;
+    }
 
     /* the outputs keep the last impact that was answered */
     struct impact impact;
     status = fmu_ask(fmu, &request, gap_rate, &impact);
     if (status != fmi3OK)
         return status;
+    /* a pair at its sites lies somewhere in space */
+    if (!law->by_poses)
+        memset(impact.vector, 0, sizeof impact.vector);
     law->shared.last = impact;
     law->shared.impacts++;
     law->waits = 1;
+    take_moment(law->point, &law->a, 1.0, impact.vector, law->angular_a);
+    take_moment(law->point, &law->b, -1.0, impact.vector, law->angular_b);
     return fmi3OK;
 }
 
@@ -172,6 +224,9 @@ static fmi3Status initialize(struct fmu *fmu)
 {
     const struct impact_law *law = (const struct impact_law *)fmu->numbers;
     struct percuss_request request;
+    fmi3Status status = check_friction(fmu);
+    if (status != fmi3OK)
+        return status;
     if (!law->by_poses)
         return fmu_pair(fmu, 1.0, &request);
     const struct percuss_body *bodies[2];

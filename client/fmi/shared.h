@@ -21,6 +21,8 @@ struct impact {
     double impulse, restitution, duration, error, total_error;
     double gap_rate_before, gap_rate_after;
     double inverse_effective_mass;
+    double vector[3], friction_loss; /* N s, on A, world; J */
+    double rebound;                  /* -gap rate after / before */
     int32_t sub_impacts;
 };
 

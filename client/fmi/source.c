@@ -150,6 +150,8 @@ bool source_pair(const struct source *source, const struct shared *shared, doubl
         return false;
     }
     request->options.tolerance = shared->tolerance;
+    /* along the normal nothing slides */
+    request->options.friction = PERCUSS_FRICTION_NONE;
     return true;
 }
 
@@ -185,6 +187,11 @@ bool source_ask(const struct source *source, const struct percuss_request *reque
         const struct percuss_contact_result *contact = &reply.contacts[0];
         impact->impulse = contact->impulse;
         impact->restitution = contact->restitution;
+        /* a tangential impulse, too, changes the gap rate */
+        bool rubs = contact->friction > 0.0 && !isnan(contact->restitution_kinematic);
+        impact->rebound = rubs ? contact->restitution_kinematic : contact->restitution;
+        memcpy(impact->vector, contact->impulse_vector, sizeof impact->vector);
+        impact->friction_loss = contact->friction > 0.0 ? reply.energy.friction : 0.0;
         impact->duration = contact->end_time;
         impact->sub_impacts = (int32_t)contact->sub_impact_count;
         impact->error = reply.error.restitution_time + reply.error.restitution_modes;

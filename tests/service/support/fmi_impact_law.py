@@ -97,6 +97,35 @@ def check_ways(unpacked, reply):
     fmu.freeInstance()
 
 
+def check_friction(unpacked):
+    """At an angle along the beam: the impulse of percuss query, and its moments about both centres of mass."""
+    names = [f"{name}[{i}]" for name in ("impulse_vector", "angular_impulse_a", "angular_impulse_b") for i in (1, 2, 3)]
+    slanted = {**POSES, "a.velocity[1]": 0.5 * SPEED, "a.velocity[3]": -math.sqrt(0.75) * SPEED}
+    values, fmu = strike(unpacked, {"by_poses": True, "friction": 0.2}, slanted)
+    reply = query(PERCUSS, SPEED, *PAIR, "--angle", "30", "--friction", "0.2")
+    contact = reply["contacts"][0]
+    vectors = np.reshape(unpacked.get(fmu, *names), (3, 3))
+    np.testing.assert_allclose(vectors[0], contact["impulse_vector"], rtol=1e-9, atol=1e-12)
+    assert abs(vectors[0][0]) > 0.1 * vectors[0][2], "nothing along the surface"
+    np.testing.assert_allclose(vectors[1], np.cross([0, 0, -0.015], vectors[0]), atol=1e-15)
+    # about the origin, the beam's centre, what A gets B loses
+    about = vectors[1] + np.cross([-0.25, 0, 0.025], vectors[0])
+    np.testing.assert_allclose(vectors[2], -about, atol=1e-15)
+    close("friction", unpacked.get(fmu, "friction_loss"), reply["energy"]["friction"], 1e-9)
+    close("gap rate", values[6], contact["restitution_kinematic"] * math.sqrt(0.75) * SPEED, 1e-9)
+    fmu.freeInstance()
+    # none: the impulse is along the normal, and has no moment about the centre of a sphere
+    values, fmu = strike(unpacked, {"by_poses": True}, slanted)
+    vectors = np.reshape(unpacked.get(fmu, *names), (3, 3))
+    np.testing.assert_allclose(vectors[0], [0, 0, values[0]], atol=1e-15)
+    assert not vectors[1].any()
+    fmu.freeInstance()
+    unpacked.refused("friction: 0.2: only 0 is allowed without by_poses", unpacked.instance, start={"friction": 0.2})
+    unpacked.refused("friction: 0.2: only 0 is allowed with inverse_effective_mass", strike, unpacked,
+                     {"by_poses": True, "friction": 0.2}, {**slanted, "inverse_effective_mass": 10.0})
+    unpacked.refused("friction", strike, unpacked, {"by_poses": True, "friction": -0.2}, slanted)
+
+
 def check_errors(unpacked):
     for by_poses in (False, True):
         unpacked.refused("body_a: 'nobody' is not in the catalogue", unpacked.instance,
@@ -117,5 +146,6 @@ check_simulated(reply)
 unpacked = Unpacked(FMU)
 check_again(unpacked, reply)
 check_ways(unpacked, reply)
+check_friction(unpacked)
 check_errors(unpacked)
 print(f"e = {reply['contacts'][0]['restitution']:.6f}")
