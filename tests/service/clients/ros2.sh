@@ -60,6 +60,21 @@ wait "$one" || fail "$(cat "$work/one")"
 agree "$work/one" 0.1 0.2
 agree "$work/two" 0.15 0.3
 
+say "friction: the impulse with all components"
+cat >"$work/slide.json" <<JSON
+{"bodies": [{"id": "steel-sphere", "position": [0.515, 0, 0], "velocity": [-0.1, 0.05, 0]}, {"id": "al-rod"}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0], "friction": 0.2}]}
+JSON
+expect 0 percuss query --request "$work/slide.json" --json
+tr -d ' \n' <"$out" | sed 's/.*"impulse_vector":\[\([^]]*\)\].*/\1/; s/,/ /g' >"$work/vector"
+for way in topic service; do
+    expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 1 al-rod 0.2
+    sed -n 's/^vector //p' "$out" | cat - "$work/vector" | awk '
+        NR == 1 { x = $1; y = $2; z = $3 }
+        NR == 2 { exit !(x == $1 && y == $2 && z == $3 && y < -0.1 * x) }' ||
+        fail "$(cat "$out"), not $(cat "$work/vector")"
+done
+
 say "what is wrong is answered, with the reason"
 expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1 nobody
 shows "0: -1 4 "

@@ -4,8 +4,9 @@
 /* A client of percuss-ros2 on plain Cyclone DDS: on the topics as any vendor's, or of the service
  * as rmw_cyclonedds makes one; or on the topics with a reader of replies that comes 0.3 s after the
  * questions. Asks about a steel sphere on the end of a rod, `count` questions at
- * once, and prints the restitution of each. usage: ros2_peer DOMAIN topic|late|service SPEED COUNT
- * [BODY]; exit code 1: an answer is missing */
+ * once, and prints the restitution of each; with FRICTION, the sphere slides half as fast as it
+ * comes, and the impulse vector is printed. usage: ros2_peer DOMAIN topic|late|service SPEED COUNT
+ * [BODY [FRICTION]]; exit code 1: an answer is missing */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +23,8 @@ struct peer {
     bool service, late;
     uint64_t id;
     unsigned count, answered, strangers;
-    double restitution[MOST];
+    double friction;
+    double restitution[MOST], vector[MOST][3];
     char message[MOST][256];
 };
 
@@ -32,11 +34,13 @@ static void ask(struct peer *peer, unsigned number, double speed, char *body)
     percuss_msgs_msg_dds__BodyMotion_ bodies[2] = {
         {.id = (char *)"steel-sphere", .state = none, .specimen = none},
         {.id = body, .state = none, .specimen = none}};
-    percuss_msgs_msg_dds__Contact_ contact = {.a = 0, .b = 1, .point.x = 0.5, .normal.x = 1.0};
+    percuss_msgs_msg_dds__Contact_ contact = {
+        .a = 0, .b = 1, .point.x = 0.5, .normal.x = 1.0, .friction = peer->friction};
     percuss_msgs_msg_dds__Question_ question = {.bodies = {._length = 2, ._buffer = bodies},
                                                 .contacts = {._length = 1, ._buffer = &contact}};
     bodies[0].position.x = 0.515;
     bodies[0].velocity.x = -speed;
+    bodies[0].velocity.y = peer->friction > 0.0 ? 0.5 * speed : 0.0;
     bodies[0].orientation.w = bodies[1].orientation.w = 1.0;
     percuss_msgs_msg_dds__Request_ request = {.sequence_number = number, .question = question};
     percuss_msgs_srv_dds__Impact_Request_ call = {
@@ -56,8 +60,14 @@ static void note(struct peer *peer, uint64_t id, uint64_t number,
     peer->answered++;
     snprintf(peer->message[number], sizeof peer->message[number], "%u %s", answer->status,
              answer->message);
-    peer->restitution[number] =
-        answer->contacts._length == 1 ? answer->contacts._buffer[0].restitution : -1.0;
+    peer->restitution[number] = -1.0;
+    if (answer->contacts._length != 1)
+        return;
+    const percuss_msgs_msg_dds__ContactResult_ *contact = answer->contacts._buffer;
+    peer->restitution[number] = contact->restitution;
+    peer->vector[number][0] = contact->impulse_vector.x;
+    peer->vector[number][1] = contact->impulse_vector.y;
+    peer->vector[number][2] = contact->impulse_vector.z;
 }
 
 static void take(struct peer *peer)
@@ -151,6 +161,7 @@ int main(int argc, char **argv)
     peer.service = strcmp(argv[2], "service") == 0;
     peer.late = strcmp(argv[2], "late") == 0;
     peer.count = (unsigned)strtoul(argv[4], NULL, 10);
+    peer.friction = argc > 6 ? strtod(argv[6], NULL) : 0.0;
     open_ends(&peer, (uint32_t)strtoul(argv[1], NULL, 10));
     /* one bridge, then all questions, then all answers */
     for (int i = 0; i < MILLISECONDS && !is_matched(&peer); i++)
@@ -170,6 +181,9 @@ int main(int argc, char **argv)
     }
     for (unsigned i = 0; i < peer.count; i++)
         printf("%u: %.17g %s\n", i, peer.restitution[i], peer.message[i]);
+    for (unsigned i = 0; peer.friction > 0.0 && i < peer.count; i++)
+        printf("vector %.17g %.17g %.17g\n", peer.vector[i][0], peer.vector[i][1],
+               peer.vector[i][2]);
     printf("%u answered, %u of others\n", peer.answered, peer.strangers);
     return peer.answered == peer.count ? EXIT_SUCCESS : EXIT_FAILURE;
 }
