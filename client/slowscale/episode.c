@@ -42,6 +42,7 @@ static void list_contact(struct episode *episode, const struct percuss_contact_r
     bool rubs =
         result->friction > 0.0 && episode->request.options.friction != PERCUSS_FRICTION_NONE;
     double sum = 0.0, tangential[3] = {0.0};
+    episode->rubs = episode->rubs || rubs;
     struct entry *first = &episode->entries[episode->entry_count];
     for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &result->sub_impacts[i];
@@ -262,32 +263,84 @@ static bool change_positions(const struct percuss_slow_config *config,
     return config->move_vector(config->engine.context, place, on_a);
 }
 
-/* Applies `factor`, 1 or -1, times an entry's impulse as if it had been at its time. */
-static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
-                                 const struct entry *entry, double factor, double now)
+/* An impulse as it is applied now: where the bodies touch, and how late it comes, s. */
+struct blow {
+    struct percuss_slow_contact place;
+    double impulse, tangential[3], late;
+    bool slides;
+};
+
+/* `factor`, 1 or -1, times an entry's impulse. */
+static struct blow blow_make(const struct percuss_slow *slow, const struct episode *episode,
+                             const struct entry *entry, double factor, double now)
 {
     /* where the bodies touch by now, if they are still near */
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     const struct pair *pair = pairs_find(slow, contact);
-    const struct percuss_slow_engine *engine = &slow->config.engine;
-    struct percuss_slow_contact place = pair ? pair->contact : *contact;
-    double late = now - entry->time, impulse = factor * entry->impulse, tangential[3];
-    bool moves = slow_moves(slow) && !(fabs(late) <= SLOW_INSTANT), slides = false;
-    place_tangential(episode, entry, &place, tangential);
+    struct blow blow = {.place = pair ? pair->contact : *contact,
+                        .impulse = factor * entry->impulse,
+                        .late = now - entry->time};
+    place_tangential(episode, entry, &blow.place, blow.tangential);
     for (int i = 0; i < 3; i++) {
-        tangential[i] *= factor;
-        slides = slides || tangential[i] != 0.0;
+        blow.tangential[i] *= factor;
+        blow.slides = blow.slides || blow.tangential[i] != 0.0;
     }
-    if (!change_velocities(engine, &place, impulse, tangential, slides))
-        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's %s failed",
-                         engine->push                                         ? "push"
-                         : engine->apply_vector && (slides || !engine->apply) ? "apply_vector"
-                                                                              : "apply");
-    if (moves && !change_positions(&slow->config, &place, impulse * late, tangential, late, slides))
+    return blow;
+}
+
+static enum percuss_result kick(const struct percuss_slow *slow, const struct blow *blow)
+{
+    const struct percuss_slow_engine *engine = &slow->config.engine;
+    if (change_velocities(engine, &blow->place, blow->impulse, blow->tangential, blow->slides))
+        return PERCUSS_RESULT_OK;
+    bool vector = engine->apply_vector && (blow->slides || !engine->apply);
+    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's %s failed",
+                     engine->push ? "push"
+                     : vector     ? "apply_vector"
+                                  : "apply");
+}
+
+/* Moves the bodies to where the impulse at its own time would have had them. */
+static enum percuss_result shift(const struct percuss_slow *slow, const struct episode *episode,
+                                 const struct entry *entry, const struct blow *blow)
+{
+    if (!slow_moves(slow) || fabs(blow->late) <= SLOW_INSTANT)
+        return PERCUSS_RESULT_OK;
+    double moment = blow->impulse * blow->late;
+    if (!change_positions(&slow->config, &blow->place, moment, blow->tangential, blow->late,
+                          blow->slides))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
-    if (moves)
-        move_gaps(slow, episode, entry->contact, impulse * late);
+    move_gaps(slow, episode, entry->contact, moment);
     return PERCUSS_RESULT_OK;
+}
+
+/* Applies `factor`, 1 or -1, times an entry's impulse as if it had been at the entry's time. */
+static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
+                                 const struct entry *entry, double factor, double now)
+{
+    struct blow blow = blow_make(slow, episode, entry, factor, now);
+    enum percuss_result result = kick(slow, &blow);
+    return result ? result : shift(slow, episode, entry, &blow);
+}
+
+/* With friction: all impulses that have come to be applied, while the point of contact lies where
+ * it was asked about, and only then the movements: an arm along the surface turns a body. */
+static enum percuss_result play_rubbing(const struct percuss_slow *slow, struct episode *episode,
+                                        double now, size_t *applied)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    size_t first = episode->played;
+    while (!result && episode->played < episode->entry_count &&
+           slow_has_come(episode->entries[episode->played].play, now)) {
+        struct blow blow = blow_make(slow, episode, &episode->entries[episode->played++], 1.0, now);
+        result = kick(slow, &blow);
+        ++*applied;
+    }
+    for (size_t i = first; !result && i < episode->played; i++) {
+        struct blow blow = blow_make(slow, episode, &episode->entries[i], 1.0, now);
+        result = shift(slow, episode, &episode->entries[i], &blow);
+    }
+    return result;
 }
 
 enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied)
@@ -296,6 +349,8 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
     struct episode *next;
     for (struct episode *episode = slow->episodes; !result && episode; episode = next) {
         next = episode->next;
+        if (episode->rubs)
+            result = play_rubbing(slow, episode, now, applied);
         while (!result && episode->played < episode->entry_count &&
                slow_has_come(episode->entries[episode->played].play, now)) {
             const struct entry *entry = &episode->entries[episode->played++];

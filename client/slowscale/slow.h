@@ -46,6 +46,7 @@ struct episode {
     double time;   /* s: of the impact */
     double window; /* s from then: the fast scale's; the tokens hold at its end */
     bool revocable;
+    bool rubs;                      /* has friction */
     bool revoked;                   /* until its successor is known */
     struct percuss_request request; /* delassus is its own or NULL, as it was asked */
     double *delassus;               /* the engine's */

@@ -147,9 +147,9 @@ static void what_lay_before_the_question_is_taken_back_with_it(void **state)
     toy_free(toy);
 }
 
-/* Two hits of spheres that slide on each other throughout, mu = 0.3: both get the spin mu P_n R / I
- * from the whole impulse, however it is applied and with the bodies the other way round at every
- * look; momenta are kept. */
+/* Two hits of spheres that slide on each other, mu = 0.3, and the friction of the second reverses:
+ * both get the spin P_t R / I from the whole impulse, however it is applied and with the bodies the
+ * other way round at every look; momenta are kept. */
 static void friction_spins_the_bodies(void **state)
 {
     (void)state;
@@ -162,6 +162,7 @@ static void friction_spins_the_bodies(void **state)
         wishes.application = way & 1 ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
         wishes.engine.push = way & 2 ? toy_push : NULL;
         wishes.engine.apply_vector = way & 2 ? NULL : toy_apply_vector;
+        wishes.move_vector = way & 1 ? toy_shift_vector : NULL;
         struct toy *toy = toy_create(2, &wishes);
         toy->flips = way & 4;
         toy->friction = mu;
@@ -171,23 +172,39 @@ static void friction_spins_the_bodies(void **state)
         toy->answer[0].friction = mu;
         for (int i = 0; i < 2; i++) {
             struct percuss_sub_impact *sub = &toy->answer[0].subs[0][i];
-            sub->impulse_tangential[0] = mu * sub->impulse;
+            sub->impulse_tangential[0] = (i == 0 ? mu : -0.5 * mu) * sub->impulse;
+            sub->compression_impulse = 0.5 * sub->impulse; /* as the service answers */
         }
         const double middle[3] = {0.01, 0.0, 0.0};
         double momentum = toy_momentum(toy->bodies, toy->inertias, 2, middle);
+        double places[2][3];
+        for (int i = 0; i < 2; i++)
+            memcpy(places[i], toy->bodies[i].position, sizeof places[i]);
         toy_step(toy, 0.0);
         if (!(way & 1))
             toy_run(toy, 0.02, 1e-3);
-        const double total = 0.014;
-        near(toy->bodies[1].velocity[1], mu * total / 0.1, 1e-15);
-        near(toy->bodies[0].velocity[1], 1.0 - mu * total / 0.1, 1e-15);
+        const double total = 0.014, dragged = mu * (0.008 - 0.5 * 0.006);
+        near(toy->bodies[1].velocity[1], dragged / 0.1, 1e-15);
+        near(toy->bodies[0].velocity[1], 1.0 - dragged / 0.1, 1e-15);
         near(toy->bodies[1].velocity[0], total / 0.1, 1e-15);
         /* of a list, the second hit comes when the spheres overlap: its arms are 1 % shorter */
         bool at_once = way & 1;
-        if (at_once)
+        if (at_once) {
+            /* at its later time an impulse would have moved them less by now */
+            double late = 0.0, beside = 0.0;
+            for (int i = 0; i < 2; i++) {
+                const struct percuss_sub_impact *sub = &toy->answer[0].subs[0][i];
+                late -= sub->impulse * percuss_slow_force_centre(sub);
+                beside -= sub->impulse_tangential[0] * percuss_slow_force_centre(sub);
+            }
+            near(toy->bodies[1].position[1], beside / 0.1, 1e-15);
+            near(toy->bodies[1].position[0], 0.02 + late / 0.1, 1e-15);
+            for (int i = 0; i < 2; i++)
+                memcpy(toy->bodies[i].position, places[i], sizeof places[i]);
             near(toy_momentum(toy->bodies, toy->inertias, 2, middle), momentum, 1e-15);
+        }
         for (int i = 0; i < 2; i++)
-            near_relative(toy->bodies[i].angular_velocity[2], -mu * total * radius / moment,
+            near_relative(toy->bodies[i].angular_velocity[2], -dragged * radius / moment,
                           at_once ? 1e-12 : 0.01);
         assert_true(toy->bodies[0].angular_velocity[0] == 0.0);
         toy_free(toy);

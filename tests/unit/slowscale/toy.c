@@ -124,6 +124,14 @@ bool toy_shift(void *context, const struct percuss_slow_contact *contact, double
     return true;
 }
 
+bool toy_shift_vector(void *context, const struct percuss_slow_contact *contact,
+                      const double moment[3])
+{
+    struct toy *toy = context;
+    percuss_slow_free_move_vector(toy->bodies, toy->inertias, contact, moment);
+    return true;
+}
+
 double toy_now(void *context)
 {
     return ((struct toy *)context)->time;

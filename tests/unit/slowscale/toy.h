@@ -71,6 +71,8 @@ bool toy_apply(void *context, const struct percuss_slow_contact *contact, double
 bool toy_push(void *context, uint32_t body, const double impulse[3], const double point[3]);
 bool toy_apply_vector(void *context, const struct percuss_slow_contact *contact,
                       const double impulse[3]);
+bool toy_shift_vector(void *context, const struct percuss_slow_contact *contact,
+                      const double moment[3]);
 bool toy_shift(void *context, const struct percuss_slow_contact *contact, double moment);
 double toy_now(void *context);
 
