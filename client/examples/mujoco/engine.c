@@ -14,9 +14,9 @@ static const double dependent = 1e-8;
 
 /* --- generalized directions --- */
 
-/* The row w with gap rate = w.qvel: velocity of a less velocity of b along the normal. */
+/* The row w with along.(velocity of a's point less that of b's) = w.qvel. */
 static void direction(const struct engine *engine, const struct percuss_slow_contact *contact,
-                      double *w)
+                      const double along[3], double *w)
 {
     const mjModel *model = engine->model;
     double jacobian[3 * model->nv];
@@ -25,8 +25,7 @@ static void direction(const struct engine *engine, const struct percuss_slow_con
         int body = engine->bodies[side == 0 ? contact->a : contact->b];
         mj_jac(model, engine->data, jacobian, NULL, contact->point, body);
         for (int i = 0; i < 3; i++)
-            mju_addToScl(w, jacobian + i * model->nv,
-                         side == 0 ? contact->normal[i] : -contact->normal[i], model->nv);
+            mju_addToScl(w, jacobian + i * model->nv, side == 0 ? along[i] : -along[i], model->nv);
     }
 }
 
@@ -69,7 +68,7 @@ static void refresh(struct engine *engine)
 double engine_gap_rate(struct engine *engine, const struct percuss_slow_contact *contact)
 {
     double w[engine->model->nv];
-    direction(engine, contact, w);
+    direction(engine, contact, contact->normal, w);
     return mju_dot(w, engine->data->qvel, engine->model->nv);
 }
 
@@ -109,7 +108,7 @@ static bool probe(void *context, struct percuss_slow_view *view)
     if (n > ENGINE_CONTACTS)
         return false;
     for (size_t i = 0; i < n; i++) {
-        direction(engine, &view->contacts[i], w[i]);
+        direction(engine, &view->contacts[i], view->contacts[i].normal, w[i]);
         view->gap_rate[i] = mju_dot(w[i], engine->data->qvel, nv);
     }
     for (size_t i = 0; view->delassus && i < n; i++) {
@@ -122,26 +121,55 @@ static bool probe(void *context, struct percuss_slow_view *view)
     return true;
 }
 
+/* M^-1 w of a direction, with its constraints. */
+static void respond_to(const struct engine *engine, const struct percuss_slow_contact *contact,
+                       const double along[3], double *u)
+{
+    double w[engine->model->nv];
+    direction(engine, contact, along, w);
+    respond(engine, w, u);
+}
+
 static bool apply(void *context, const struct percuss_slow_contact *contact, double impulse)
 {
     struct engine *engine = context;
     int nv = engine->model->nv;
-    double w[nv], u[nv];
-    direction(engine, contact, w);
-    respond(engine, w, u);
+    double u[nv];
+    respond_to(engine, contact, contact->normal, u);
     mju_addToScl(engine->data->qvel, u, impulse, nv);
     engine->applied[contact->a][contact->b] += impulse;
+    return true;
+}
+
+/* By friction: M^-1 (w_n P_n + w_t P_t), which is the response to the impulse's own direction. */
+static bool apply_vector(void *context, const struct percuss_slow_contact *contact,
+                         const double impulse[3])
+{
+    struct engine *engine = context;
+    int nv = engine->model->nv;
+    double u[nv];
+    respond_to(engine, contact, impulse, u);
+    mju_addTo(engine->data->qvel, u, nv);
+    engine->applied[contact->a][contact->b] += mju_dot3(contact->normal, impulse);
     return true;
 }
 
 static bool move(void *context, const struct percuss_slow_contact *contact, double moment)
 {
     struct engine *engine = context;
-    int nv = engine->model->nv;
-    double w[nv], u[nv];
-    direction(engine, contact, w);
-    respond(engine, w, u);
+    double u[engine->model->nv];
+    respond_to(engine, contact, contact->normal, u);
     mj_integratePos(engine->model, engine->data->qpos, u, moment);
+    return true;
+}
+
+static bool move_vector(void *context, const struct percuss_slow_contact *contact,
+                        const double moment[3])
+{
+    struct engine *engine = context;
+    double u[engine->model->nv];
+    respond_to(engine, contact, moment, u);
+    mj_integratePos(engine->model, engine->data->qpos, u, 1.0);
     return true;
 }
 
@@ -152,9 +180,23 @@ static double now(void *context)
 
 void engine_configure(struct engine *engine, struct percuss_slow_config *config)
 {
-    config->engine =
-        (struct percuss_slow_engine){.context = engine, .probe = probe, .apply = apply, .now = now};
+    config->engine = (struct percuss_slow_engine){.context = engine,
+                                                  .probe = probe,
+                                                  .apply = apply,
+                                                  .now = now,
+                                                  .apply_vector = apply_vector};
     config->move = move;
+    config->move_vector = move_vector;
+}
+
+bool engine_is_free(const struct engine *engine, size_t body)
+{
+    const mjModel *model = engine->model;
+    int number = engine->bodies[body], joint = model->body_jntadr[number];
+    bool is_free = joint >= 0 && model->jnt_type[joint] == mjJNT_FREE && model->neq == 0;
+    for (int i = 0; i < model->nbody; i++)
+        is_free = is_free && model->body_parentid[i] != number;
+    return is_free;
 }
 
 /* --- contacts and steps --- */
@@ -169,32 +211,14 @@ static bool find_body(const struct engine *engine, int geom, uint32_t *body)
     return false;
 }
 
-/* By a short free motion: the effect of gravity and of the bodies' swing on the gap rate. */
-static void find_accelerations(struct engine *engine, size_t count,
-                               struct percuss_slow_contact *contacts)
-{
-    const double look_ahead = 1e-4;
-    double rates[ENGINE_CONTACTS];
-    for (size_t i = 0; i < count; i++)
-        rates[i] = engine_gap_rate(engine, &contacts[i]);
-    mj_copyData(engine->trial, engine->model, engine->data);
-    engine->model->opt.timestep = look_ahead;
-    mj_step(engine->model, engine->data);
-    mj_forward(engine->model, engine->data);
-    for (size_t i = 0; i < count; i++)
-        contacts[i].gap_acceleration =
-            (engine_gap_rate(engine, &contacts[i]) - rates[i]) / look_ahead;
-    mj_copyData(engine->data, engine->model, engine->trial);
-}
-
-size_t engine_contacts(struct engine *engine, bool accelerations,
-                       struct percuss_slow_contact contacts[ENGINE_CONTACTS])
+static size_t collect(const struct engine *engine,
+                      struct percuss_slow_contact contacts[ENGINE_CONTACTS])
 {
     size_t count = 0;
     for (int i = 0; i < engine->data->ncon && count < ENGINE_CONTACTS; i++) {
         const mjContact *from = &engine->data->contact[i];
         struct percuss_slow_contact *to = &contacts[count];
-        *to = (struct percuss_slow_contact){.gap = from->dist};
+        *to = (struct percuss_slow_contact){.gap = from->dist, .friction = engine->friction};
         /* MuJoCo's normal goes from geom1 to geom2, ours from b to a */
         if (!find_body(engine, from->geom2, &to->a) || !find_body(engine, from->geom1, &to->b))
             continue;
@@ -205,6 +229,37 @@ size_t engine_contacts(struct engine *engine, bool accelerations,
                            (contacts[j].a == to->b && contacts[j].b == to->a);
         count++;
     }
+    return count;
+}
+
+/* By a short free motion: the effect of gravity and of the bodies' swing on the gap rate. It is
+ * that of the gap, whose place moves on over bodies that slide and spin. */
+static void find_accelerations(struct engine *engine, size_t count,
+                               struct percuss_slow_contact *contacts)
+{
+    const double look_ahead = 1e-4;
+    struct percuss_slow_contact later[ENGINE_CONTACTS];
+    double rates[ENGINE_CONTACTS];
+    for (size_t i = 0; i < count; i++)
+        rates[i] = engine_gap_rate(engine, &contacts[i]);
+    mj_copyData(engine->trial, engine->model, engine->data);
+    engine->model->opt.timestep = look_ahead;
+    mj_step(engine->model, engine->data);
+    mj_forward(engine->model, engine->data);
+    size_t near = collect(engine, later);
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < near; j++)
+            if (later[j].a == contacts[i].a && later[j].b == contacts[i].b &&
+                later[j].feature == contacts[i].feature)
+                contacts[i].gap_acceleration =
+                    (engine_gap_rate(engine, &later[j]) - rates[i]) / look_ahead;
+    mj_copyData(engine->data, engine->model, engine->trial);
+}
+
+size_t engine_contacts(struct engine *engine, bool accelerations,
+                       struct percuss_slow_contact contacts[ENGINE_CONTACTS])
+{
+    size_t count = collect(engine, contacts);
     if (accelerations && count)
         find_accelerations(engine, count, contacts);
     return count;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* MuJoCo as an engine of the slow scale: contacts, the three callbacks, steps that stop at a touch.
+/* MuJoCo as an engine of the slow scale: contacts, the callbacks, steps that stop at a touch.
  * Contacts are recorded by MuJoCo (margin) but carry no force (gap > margin). */
 #ifndef MUJOCO_ENGINE_H
 #define MUJOCO_ENGINE_H
@@ -26,6 +26,7 @@ struct engine {
     struct engine_body names[ENGINE_BODIES];
     size_t constraint_count; /* equality constraints as directions M^-1 j, orthonormal in M */
     double *constraints;     /* [constraint_count x nv] */
+    double friction;         /* coefficient of all contacts; 0: the catalogue's, if any */
     double applied[ENGINE_BODIES][ENGINE_BODIES]; /* N s, by the contact's a and b */
 };
 
@@ -33,6 +34,10 @@ struct engine {
 bool engine_open(struct engine *engine, const char *file, size_t body_count,
                  const struct engine_body *bodies);
 void engine_close(struct engine *engine);
+
+/* Whether no joint and no equality constraint holds the body, and nothing hangs on it: friction is
+ * for such bodies. */
+bool engine_is_free(const struct engine *engine, size_t body);
 
 /* Enters the callbacks, with the engine as their context. */
 void engine_configure(struct engine *engine, struct percuss_slow_config *config);

@@ -159,7 +159,8 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     if (!open_scene(choice, scene, &engine))
         return false;
     for (size_t i = 0; i < scene->body_count; i++)
-        bodies[i].id = scene->bodies[i].id;
+        bodies[i] = (struct percuss_slow_body){
+            .id = scene->bodies[i].id, .free = scene->friction > 0.0 && engine_is_free(&engine, i)};
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = scene->body_count;
     config.bodies = bodies;

@@ -42,6 +42,16 @@ static void print(const struct record *record)
         printf("  declared\n");
 }
 
+static void print_friction(const struct percuss_reply *reply, size_t contact)
+{
+    const struct percuss_contact_result *result = &reply->contacts[contact];
+    printf("         friction: tangential impulse %.7f N s, %s; the rigid bodies lose %.9g J, "
+           "%.9g J of it by sliding\n",
+           hypot(result->impulse_tangential[0], result->impulse_tangential[1]),
+           percuss_friction_state_name(result->friction_state),
+           reply->energy.available - reply->energy.rigid_after, reply->energy.friction);
+}
+
 void records_report(void *context, const struct percuss_slow_report *report)
 {
     struct records *records = context;
@@ -71,6 +81,8 @@ void records_report(void *context, const struct percuss_slow_report *report)
             write_sub_impacts(records, report, i);
         }
         print(record);
+        if (record->answered && report->reply->contacts[i].friction > 0.0)
+            print_friction(report->reply, i);
     }
     if (report->message[0])
         printf("         %s\n", report->message);

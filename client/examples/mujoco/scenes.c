@@ -29,6 +29,14 @@ const struct scene scenes[] = {
      .bodies = {{"s1", "sphere", false}, {"s2", "sphere", false}, {"bar", "bar", true}},
      .speed = 0.2,
      .duration = 0.3},
+    {.name = "spinning-sphere-free-bar",
+     .body_count = 2,
+     .bodies = {{"sph", "sphere", false}, {"bar", "bar", true}},
+     .speed = 0.2,
+     .duration = 0.05,
+     .slide = 0.1,
+     .spin = 20.0,
+     .friction = 0.3},
 };
 const size_t scene_count = sizeof scenes / sizeof *scenes;
 
@@ -42,7 +50,13 @@ void scene_start(const struct scene *scene, struct engine *engine)
         int joint = model->body_jntadr[engine->bodies[i]];
         if (model->jnt_type[joint] == mjJNT_HINGE)
             engine->data->qpos[model->jnt_qposadr[joint]] = scene->angle;
-        engine->data->qvel[model->jnt_dofadr[joint]] = scene->speed;
+        double *speeds = engine->data->qvel + model->jnt_dofadr[joint];
+        speeds[0] = scene->speed;
+        if (model->jnt_type[joint] == mjJNT_FREE) {
+            speeds[1] = scene->slide;
+            speeds[5] = scene->spin;
+        }
     }
+    engine->friction = scene->friction;
     mj_forward(model, engine->data);
 }

@@ -14,6 +14,9 @@ struct scene {
     double angle;    /* of a pendulum sphere's joint at the start, rad */
     double speed;    /* at which spheres start: of the joint, rad/s, or along x, m/s */
     double duration; /* s */
+    double slide;    /* of spheres at the start: along y, m/s, */
+    double spin;     /* and about z, rad/s */
+    double friction; /* coefficient of the contacts; 0: the catalogue's, which has none */
 };
 
 extern const struct scene scenes[];
