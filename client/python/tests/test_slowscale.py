@@ -103,6 +103,16 @@ class Rubbing(Spheres):
         return total
 
 
+class Sliding(Spheres):
+    """The example's, with friction."""
+
+    def contacts(self) -> list[Contact]:
+        found = super().contacts()
+        for contact in found:
+            contact.friction, contact.tangent = 0.2, np.array([1.0, 0.0, 0.0])
+        return found
+
+
 def play(world: Line, slow: SlowScale, end: float) -> None:
     while world.now() < end - 1e-12:
         world.step(max(0.0, min(1e-3, slow.next() - world.now(), end - world.now())))
@@ -270,6 +280,28 @@ class Asking(unittest.TestCase):
             # until the second hit of a list the ball slides some mm along the beam's roundness
             self.assertAlmostEqual((energy - world.energy()) / lost, 1.0, delta=1e-8 if total else 0.05)
             self.assertGreater(books.friction, 0.2 * lost)
+
+    def test_friction_in_a_group(self) -> None:
+        """Two balls slide on a free beam at once: one question, whose books the total keeps."""
+        bodies = [Body("al-beam", free=True)] + 2 * [Body("steel-sphere", free=True)]
+        world = Sliding(self.client.bodies(), (0.3, 0.45), 0.2, 2e-4)
+        for ball, along in ((1, 0.1), (2, -0.3)):
+            world._bodies[ball].velocity[0] = along
+        energy = world.energy()
+        reports: list[Report] = []
+        total = Application.TOTAL
+        with SlowScale(bodies, world, self.client, application=total, report=reports.append) as slow:
+            run(world, slow, 0.01, 1e-3)
+        (report,) = reports
+        assert report.reply
+        answer = report.reply.contacts
+        self.assertEqual([one.friction for one in answer], [0.2, 0.2])
+        self.assertTrue(answer[0].impulse_tangential[0] < 0.0 < answer[1].impulse_tangential[0])
+        books = report.reply.energy
+        self.assertAlmostEqual((energy - world.energy()) / (books.available - books.rigid_after), 1.0, delta=1e-6)
+        momentum = sum(m * world.motion(i).velocity for i, m in enumerate(world.masses))
+        came = world.masses[1] * np.array([0.1 - 0.3, 0.0, -2 * 0.2])
+        np.testing.assert_allclose(momentum, came, atol=1e-15)
 
     def test_friction_of_a_body_that_joints_hold(self) -> None:
         """A coefficient that would be dropped is refused by name; options.friction none drops it."""

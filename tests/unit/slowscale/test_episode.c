@@ -211,6 +211,52 @@ static void friction_spins_the_bodies(void **state)
     }
 }
 
+/* A third body hits in the midst of a list with friction: what is asked about the vibration then
+ * has no matrix either, the tangential impulse that was applied is taken back, and both are in the
+ * new answer. */
+static void friction_is_revoked_with_its_list(void **state)
+{
+    (void)state;
+    static const struct percuss_slow_body bodies[] = {
+        {.id = "s0", .free = true}, {.id = "s1", .free = true}, {.id = "s2", .free = true}};
+    for (int later = 0; later < 2; later++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.bodies = bodies;
+        wishes.engine.push = toy_push;
+        struct toy *toy = toy_create(3, &wishes);
+        /* in the midst of the first hit, with its impulse applied; or between both */
+        toy->bodies[2].position[0] += later ? 4e-4 : 30e-6;
+        toy->bodies[2].velocity[0] = later ? -0.1 : -0.2;
+        toy->answers = 2 + (size_t)later;
+        toy->answer[0] = two_hits;
+        toy->answer[0].friction = 0.3;
+        toy->answer[0].subs[0][0].impulse_tangential[0] = 0.002;
+        toy->answer[0].subs[0][1].impulse_tangential[0] = 0.001;
+        toy->answer[1] = (struct toy_answer){.truncated = true, .window = 2.3e-3, .count = {1}};
+        toy->answer[1 + later] = (struct toy_answer){
+            .window = 6e-3,
+            .friction = 0.3,
+            .count = {1, 1},
+            .subs = {{{.compression_end = 1e-4,
+                       .end = 2e-4,
+                       .impulse = 0.03,
+                       .impulse_tangential = {0.005, 0.0}}},
+                     {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
+        toy_step(toy, 0.0);
+        toy_run(toy, 2e-2, 1e-5);
+        assert_int_equal(toy->asked, toy->answers);
+        for (size_t i = 0; i < toy->asked; i++) {
+            assert_null(toy->question[i].delassus);
+            assert_int_equal(toy->question[i].options.friction, PERCUSS_FRICTION_MICRO_SLIP);
+        }
+        double dragged = later ? 0.002 + 0.005 : 0.005;
+        near(toy->bodies[0].velocity[1], -dragged / 0.1, 1e-15);
+        near(toy->bodies[1].velocity[1], dragged / 0.1, 1e-15);
+        near(toy->bodies[2].velocity[1], 0.0, 0.0);
+        toy_free(toy);
+    }
+}
+
 /* The surface has turned when the second hit is played: its tangential part lies in the surface as
  * it is by then, of the size that it has. */
 static void friction_turns_with_the_surface(void **state)
@@ -248,6 +294,7 @@ int main(void)
         cmocka_unit_test(a_sub_impact_under_way_is_asked_about_again),
         cmocka_unit_test(what_lay_before_the_question_is_taken_back_with_it),
         cmocka_unit_test(friction_spins_the_bodies),
+        cmocka_unit_test(friction_is_revoked_with_its_list),
         cmocka_unit_test(friction_turns_with_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
