@@ -137,10 +137,11 @@ static double cell_share(const struct friction *friction, size_t i, const struct
     return share > 0.0 ? share : 0.0;
 }
 
-/* x^T kappa^-1 x. */
-static inline double over_ratio(const double ratio[3], double x, double y)
+/* (x, y)^T kappa^-1 of another vector. */
+static inline double over_ratio(const double ratio[3], double x, double y, const double other[2])
 {
-    return (ratio[2] * x * x - 2.0 * ratio[1] * x * y + ratio[0] * y * y) /
+    return (x * (ratio[2] * other[0] - ratio[1] * other[1]) +
+            y * (ratio[0] * other[1] - ratio[1] * other[0])) /
            (ratio[0] * ratio[2] - ratio[1] * ratio[1]);
 }
 
@@ -148,7 +149,8 @@ static inline double over_ratio(const double ratio[3], double x, double y)
  * mu^2. */
 struct walk {
     double moved[2];
-    double force[2], stuck, lost;
+    double force[2], lost;
+    double stuck, turning[2]; /* stiffnesses of cells that stick, and of forces that turn */
 };
 
 /* The end of a cell's way. */
@@ -158,37 +160,189 @@ struct cell_end {
     double before, after; /* of the part that was closed all the way, and at the end */
 };
 
-/* One cell: sticks, or slips at its limit, along the direction of the trial force. It slips by what
- * its elastic displacement lacks of the way, and loses that times the mean of the forces before and
- * after. */
+/* The way of a cell that slips, from the share `from` at its beginning: its force where it reaches
+ * the limit, and the part of the way that is left then. */
+struct slip {
+    double at[2], share, left;
+};
+
+/* A cell that has slipped before is at its limit: but for rounding. */
+static const double AT_LIMIT = 1e-12;
+
+static inline struct slip slip_begin(const double force[2], double from, const struct cell_end *end,
+                                     const double moved[2])
+{
+    double x = end->stiffness * moved[0], y = end->stiffness * moved[1];
+    double grown = end->share - from;
+    /* |force + part (x, y)| = from + part grown */
+    double a = x * x + y * y - grown * grown;
+    double b = force[0] * x + force[1] * y - from * grown;
+    double c = force[0] * force[0] + force[1] * force[1] - from * from;
+    if (b >= 0.0 && c >= -AT_LIMIT * from * from)
+        return (struct slip){{force[0], force[1]}, from, 1.0};
+    double root = sqrt(larger(b * b - a * c, 0.0));
+    double part = b > 0.0 ? -c / (b + root) : a > 0.0 ? (root - b) / a : 0.0;
+    part = part > 0.0 ? smaller(part, 1.0) : 0.0;
+    return (struct slip){
+        {force[0] + part * x, force[1] + part * y}, from + part * grown, 1.0 - part};
+}
+
+/* Along a contact's ellipse the slip is not along kappa times the slip: the rest turns the force
+ * that has the direction n, as a way of its own. `grown`: of the limit. */
+static inline void across_kappa(const double ratio[3], const double n[2], double grown,
+                                const double way[2], double turned[2])
+{
+    double apart = 0.5 * (ratio[0] - ratio[2]);
+    double x = ratio[0] * n[0] + ratio[1] * n[1], y = ratio[1] * n[0] + ratio[2] * n[1];
+    double slipped = (way[0] * n[0] + way[1] * n[1] - grown) / (x * n[0] + y * n[1]);
+    slipped = larger(slipped, 0.0);
+    turned[0] = way[0] - slipped * (apart * n[0] + ratio[1] * n[1]);
+    turned[1] = way[1] - slipped * (ratio[1] * n[0] - apart * n[1]);
+}
+
+/* The same for a cell that has just begun to touch, which has no direction yet: in rounds, each of
+ * which leaves its part of kappa's anisotropy. */
+static void across_from_rest(const double ratio[3], double grown, const double way[2],
+                             double turned[2])
+{
+    turned[0] = way[0];
+    turned[1] = way[1];
+    for (int round = 0; round < 4; round++) {
+        double size = sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+        if (!(size > 0.0))
+            return;
+        const double n[2] = {turned[0] / size, turned[1] / size};
+        across_kappa(ratio, n, grown, way, turned);
+    }
+}
+
+/* The direction of the force at the end of a slip; returns the share of the trial force that the
+ * limit leaves. A force turns towards the way by tan(angle/2) = exp(-a) of it before, a the
+ * elastic force of the way over the limit: to second order in a, and all of it for large ones. */
+static inline double slip_direction(const double ratio[3], const struct slip *slip,
+                                    const struct cell_end *end, const double moved[2],
+                                    double along[2])
+{
+    double limit = 0.5 * (slip->share + end->share);
+    double rigid = slip->left * end->stiffness;
+    double way[2] = {rigid * moved[0], rigid * moved[1]};
+    if (ratio[0] != ratio[2] || ratio[1] != 0.0) {
+        const double elastic[2] = {way[0], way[1]};
+        double grown = end->share - slip->share, over = 1.0 / slip->share;
+        if (slip->share > 0.0)
+            across_kappa(ratio, (const double[2]){over * slip->at[0], over * slip->at[1]}, grown,
+                         elastic, way);
+        else
+            across_from_rest(ratio, grown, elastic, way);
+    }
+    /* all of it times the share */
+    double bend = 0.5 * (slip->at[0] * way[0] + slip->at[1] * way[1]) / limit;
+    double turn = bend > 0.0 || !(slip->share > 0.0)
+                      ? slip->share + bend
+                      : slip->share * slip->share / (slip->share - bend);
+    double x = limit * slip->at[0] + turn * way[0], y = limit * slip->at[1] + turn * way[1];
+    if (!(slip->share > 0.0)) {
+        x = way[0];
+        y = way[1];
+    }
+    double size = sqrt(x * x + y * y);
+    if (!(size > 0.0)) { /* as if it had not turned yet: shares may fall faster than forces */
+        x = slip->at[0];
+        y = slip->at[1];
+        size = slip->share;
+    }
+    size = 1.0 / size;
+    along[0] = x * size;
+    along[1] = y * size;
+    double trial = slip->share + fabs(way[0] * along[0] + way[1] * along[1]);
+    return trial > limit ? limit / trial : 1.0;
+}
+
+/* A cell that slips: by what its elastic displacement lacks of the way, and it loses that times the
+ * mean of the forces at the limit. */
+static inline void cell_slip(struct friction *friction, size_t i, double from,
+                             const struct cell_end *end, struct walk *walk)
+{
+    double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
+    const double *ratio = friction->ratio, *moved = walk->moved;
+    const struct slip slip = slip_begin((const double[2]){*x, *y}, from, end, moved);
+    double along[2];
+    double left = slip_direction(ratio, &slip, end, moved, along);
+    double next[2] = {end->share * along[0], end->share * along[1]};
+    double before = end->before > 0.0 ? 1.0 / end->before : 0.0;
+    double after = end->after == end->before ? before : end->after > 0.0 ? 1.0 / end->after : 0.0;
+    double slid[2] = {moved[0] + before * *x - after * next[0],
+                      moved[1] + before * *y - after * next[1]};
+    double lost = over_ratio(ratio, slip.at[0] + next[0], slip.at[1] + next[1], slid);
+    walk->lost += larger(0.5 * lost, 0.0);
+    for (int j = 0; j < 2; j++)
+        walk->turning[j] += end->stiffness * left * (1.0 - along[j] * along[j]);
+    *x = next[0];
+    *y = next[1];
+}
+
+/* Angle, rad, that a force turns by on its way, or its distance from an axis of kappa, below which
+ * the turn, of second order in it, is rounding. */
+static const double STRAIGHT = 1e-9;
+
+/* Whether a trial force goes on along the force before, and the slip along it: always in a plane. */
+static inline bool is_straight(const double ratio[3], const double trial[2], double x, double y,
+                               double share)
+{
+    double near = STRAIGHT * share * share;
+    if (!(fabs(trial[0] * y - trial[1] * x) <= near))
+        return false;
+    double apart = fabs(ratio[0] - ratio[2]);
+    bool isotropic = larger(apart, fabs(ratio[1])) <= STRAIGHT;
+    bool by_axes = fabs(ratio[1]) <= STRAIGHT * apart;
+    return isotropic || (by_axes && fabs(trial[0] * trial[1]) <= near);
+}
+
+/* As cell_slip where it is straight. */
+static inline void cell_slip_straight(struct friction *friction, size_t i,
+                                      const struct cell_end *end, const double trial[2],
+                                      struct walk *walk)
+{
+    double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
+    const double *ratio = friction->ratio, *moved = walk->moved;
+    double inverse = 1.0 / sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
+    double along[2] = {trial[0] * inverse, trial[1] * inverse};
+    double before = *x * along[0] + *y * along[1];
+    double slip = moved[0] * along[0] + moved[1] * along[1];
+    slip += end->before > 0.0 ? before / end->before : 0.0;
+    slip -= end->after > 0.0 ? end->share / end->after : 0.0;
+    if (slip > 0.0)
+        walk->lost += 0.5 * (end->share + larger(before, 0.0)) * slip *
+                      over_ratio(ratio, along[0], along[1], along);
+    double across = end->stiffness * end->share * inverse;
+    walk->turning[0] += across * along[1] * along[1];
+    walk->turning[1] += across * along[0] * along[0];
+    *x = end->share * along[0];
+    *y = end->share * along[1];
+}
+
+/* One cell: sticks, or slips at its limit. */
 static inline void cell_walk(struct friction *friction, size_t i, const struct cell_end *end,
                              struct walk *walk)
 {
     double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
     const double *moved = walk->moved;
-    double share = end->share;
+    double share = end->share, from = friction->share[i];
     double trial[2] = {*x + end->stiffness * moved[0], *y + end->stiffness * moved[1]};
-    double square = trial[0] * trial[0] + trial[1] * trial[1];
     friction->share[i] = share;
-    if (square <= share * share) {
+    if (trial[0] * trial[0] + trial[1] * trial[1] <= share * share) {
         walk->stuck += end->stiffness;
+        *x = trial[0];
+        *y = trial[1];
+    } else if (is_straight(friction->ratio, trial, *x, *y, share)) {
+        cell_slip_straight(friction, i, end, trial, walk);
+    } else if (share > 0.0) {
+        cell_slip(friction, i, from, end, walk);
     } else {
-        double size = sqrt(square);
-        double along[2] = {trial[0] / size, trial[1] / size};
-        double before = *x * along[0] + *y * along[1];
-        double slip = moved[0] * along[0] + moved[1] * along[1];
-        slip += end->before > 0.0 ? before / end->before : 0.0;
-        slip -= end->after > 0.0 ? share / end->after : 0.0;
-        if (slip > 0.0)
-            walk->lost += 0.5 * (share + larger(before, 0.0)) * slip *
-                          over_ratio(friction->ratio, along[0], along[1]);
-        trial[0] = share * along[0];
-        trial[1] = share * along[1];
+        *x = *y = 0.0;
     }
-    *x = trial[0];
-    *y = trial[1];
-    walk->force[0] += trial[0];
-    walk->force[1] += trial[1];
+    walk->force[0] += *x;
+    walk->force[1] += *y;
 }
 
 /* The part of a cell that opens gives up its part of the force, whose elastic energy is lost. */
@@ -197,7 +351,8 @@ static void cell_open(struct friction *friction, size_t i, double before, double
 {
     double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
     double left = after / before;
-    walk->lost += 0.5 * over_ratio(friction->ratio, *x, *y) * (1.0 - left) / before;
+    walk->lost += 0.5 * over_ratio(friction->ratio, *x, *y, (const double[2]){*x, *y}) *
+                  (1.0 - left) / before;
     *x *= left;
     *y *= left;
 }
@@ -261,6 +416,8 @@ void friction_walk(struct friction *friction, double indentation, const double d
     }
     friction->indentation = indentation;
     friction->stuck = walk.stuck;
+    for (int j = 0; j < 2; j++)
+        friction->resists[j] = kappa[2 * j] * (walk.stuck + walk.turning[j]);
     friction->lost += friction->coefficient * friction->coefficient * walk.lost;
     for (int j = 0; j < 2; j++) {
         friction->displacement[j] = displacement[j];
@@ -284,10 +441,10 @@ double friction_stored(const struct friction *friction)
     double sum = 0.0;
     for (size_t i = 0; at.indentation > 0.0 && i <= at.last; i++) {
         double stiffness;
-        double x = friction->traction[0][i], y = friction->traction[1][i];
+        const double force[2] = {friction->traction[0][i], friction->traction[1][i]};
         cell_share(friction, i, &at, &stiffness);
         if (stiffness > 0.0)
-            sum += over_ratio(friction->ratio, x, y) / (2.0 * stiffness);
+            sum += over_ratio(friction->ratio, force[0], force[1], force) / (2.0 * stiffness);
     }
     return sum * friction->coefficient * friction->coefficient;
 }

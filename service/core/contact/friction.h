@@ -12,8 +12,9 @@
  *
  * (their sum is F), and resists the tangential displacement u of body a's surface against b's by
  * kappa (F'(m) - F'(y_i)) per metre, kappa a symmetric tensor, as long as its own force is below
- * the coefficient of friction mu times its share: Coulomb's law, cell by cell. The last cell has no
- * upper end. Between updates of its history a normal law must be elastic and convex. */
+ * the coefficient of friction mu times its share: Coulomb's law, cell by cell, a cell slips along
+ * its force. The last cell has no upper end. Between updates of its history a normal law must be
+ * elastic and convex. */
 #ifndef PERCUSS_CONTACT_FRICTION_H
 #define PERCUSS_CONTACT_FRICTION_H
 
@@ -35,9 +36,11 @@ struct friction {
     double *share, *traction[2];
     double indentation;
     double displacement[2];
-    double normal; /* force of the law there, N */
-    double stuck;  /* sum of the stiffnesses of cells that stick, N/m, not times kappa */
-    double lost;   /* by slip since friction_create, J */
+    double normal;     /* force of the law there, N */
+    double stuck;      /* sum of the stiffnesses of cells that stick, N/m, not times kappa */
+    double resists[2]; /* slope of the force by the displacement along each tangent, N/m: of cells
+                          that stick, and across the force of those that slip */
+    double lost;       /* by slip since friction_create, J */
 };
 
 /* Ratios of tangential to normal stiffness of two elastic half-spaces along the contact ellipse's

@@ -29,16 +29,29 @@ static const double AFTER_ALL = 1e-9;
 /* Share of the law's compliance that a negative series compliance may cancel. */
 static const double BEARABLE = 0.5;
 
+static inline double larger(double a, double b)
+{
+    return b > a || isnan(b) ? b : a;
+}
+
+/* Change of tangential forces, over their limits, after which they are as exact as the accuracy;
+ * and the smallest. */
+static const double LAST_SLIDE = 0.1;
+static const double FINEST_SLIDE = 1e-11;
+
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena)
 {
     size_t n = scene_rows(scene);
-    *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
+    *step = (struct contact_step){.arena = arena,
+                                  .last_change = node_solver_last_change(accuracy),
+                                  .last_slide = larger(LAST_SLIDE * accuracy, FINEST_SLIDE)};
     /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
     step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
-    step->before = arena_take(arena, n, sizeof *step->before);
+    step->before = arena_take(arena, 2 * n, sizeof *step->before);
+    step->change = step->before + n;
     step->matrix = arena_reserve(arena, n * n, sizeof(double));
     if (!step->indentation || !step->target || !step->approach || !step->before || !step->matrix)
         return false;
@@ -120,11 +133,6 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
         }
     }
     return false;
-}
-
-static inline double larger(double a, double b)
-{
-    return b > a || isnan(b) ? b : a;
 }
 
 /* Reductions of the approaches by other contacts' forces. */
@@ -339,22 +347,42 @@ static enum contact_step_end solve_normals(struct contact_step *step,
  * tangents' own equations are solved by Newton's method with the slopes of the cells that stick. */
 enum { MOST_ROUNDS = 30 };
 
-/* Change of the forces of friction `i` in a round, over its largest limit. */
-static double change_of(const struct contact_step *step, const struct scene *scene, size_t i)
+/* A contact of a group whose limit is below this share of the group's need not be as exact: one far
+ * from the impact may bear as good as nothing. */
+static const double SHARE_OF_LIMITS = 0.01;
+
+/* Changes of the forces by which a round differs from the one before, and by the displacements'
+ * last change at their slopes; and their limits. */
+struct round_change {
+    double change[PERCUSS_MAX_CONTACTS], limit[PERCUSS_MAX_CONTACTS]; /* [friction], N */
+};
+
+static double largest_change(const struct round_change *of, size_t count)
+{
+    double group = 0.0, largest = 0.0;
+    for (size_t i = 0; i < count; i++)
+        group = larger(group, SHARE_OF_LIMITS * of->limit[i]);
+    for (size_t i = 0; i < count; i++)
+        if (!(of->change[i] == 0.0))
+            largest = larger(largest, of->change[i] / larger(of->limit[i], group));
+    return largest;
+}
+
+/* Those of friction `i`. */
+static void find_change(const struct contact_step *step, const struct scene *scene, size_t i,
+                        struct round_change *of)
 {
     const struct scene_friction *friction = &scene->friction[i];
     const double *normal = step->force[friction->contact];
-    double limit = 0.0;
-    double change = 0.0;
+    size_t row = scene_tangent(scene, i);
+    of->limit[i] = of->change[i] = 0.0;
     for (int j = 0; j < NODES; j++) {
-        size_t row = scene_tangent(scene, i);
-        double slid = fabs(step->force[row][j] - step->before[row][j]) +
-                      fabs(step->force[row + 1][j] - step->before[row + 1][j]);
+        double moved = fabs(step->stiffness[row][j] * step->change[row][j]) +
+                       fabs(step->stiffness[row + 1][j] * step->change[row + 1][j]);
         double pressed = fabs(normal[j] - step->before[friction->contact][j]);
-        limit = larger(limit, friction->coefficient * normal[j]);
-        change = larger(change, larger(slid, friction->coefficient * pressed));
+        of->limit[i] = larger(of->limit[i], friction->coefficient * normal[j]);
+        of->change[i] = larger(of->change[i], larger(moved, friction->coefficient * pressed));
     }
-    return change > 0.0 ? change / limit : 0.0;
 }
 
 static struct friction_way way_of(const struct contact_step *step, const struct scene *scene,
@@ -380,18 +408,46 @@ static bool improve_tangents(struct contact_step *step, const struct node_proble
     for (size_t row = scene->contacts; row < scene_rows(scene); row++) {
         const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, row)->by;
         double excess[NODES];
-        double change[NODES];
         for (int i = 0; i < NODES; i++)
             excess[i] = step->indentation[row][i] - problem->target[row][i] + step->taken[row][i];
-        if (!node_solve_linear(m, step->stiffness[row], excess, change))
+        if (!node_solve_linear(m, step->stiffness[row], excess, step->change[row]))
             return false;
         for (int i = 0; i < NODES; i++)
-            step->indentation[row][i] -= change[i];
+            step->indentation[row][i] -= step->change[row][i];
     }
     return true;
 }
 
-/* Rounds until the forces change by less than `last` of their limits. */
+/* The forces at the nodes of friction `i` by the present indentations and displacements. */
+static void walk_nodes(struct contact_step *step, const struct scene *scene, size_t i,
+                       const struct contact_start *start)
+{
+    size_t row = scene_tangent(scene, i);
+    const struct friction_way way = way_of(step, scene, i, start);
+    friction_step_nodes(&step->friction, i, &way, step->force[scene->friction[i].contact],
+                        step->force + row, step->stiffness + row);
+}
+
+/* Forces of friction `i` after the last, tiny change of its displacements, within their limit. */
+static void follow_tangents(struct contact_step *step, const struct scene *scene, size_t i)
+{
+    const struct scene_friction *friction = &scene->friction[i];
+    size_t row = scene_tangent(scene, i);
+    for (int j = 0; j < NODES; j++) {
+        double *x = &step->force[row][j], *y = &step->force[row + 1][j];
+        *x -= step->stiffness[row][j] * step->change[row][j];
+        *y -= step->stiffness[row + 1][j] * step->change[row + 1][j];
+        double limit = friction->coefficient * step->force[friction->contact][j];
+        double size = hypot(*x, *y);
+        if (size > limit) {
+            *x *= limit / size;
+            *y *= limit / size;
+        }
+    }
+}
+
+/* Rounds until the forces would change by less than `last` of their limits; they then follow that
+ * change by their slopes. */
 static enum contact_step_end solve_with_friction(struct contact_step *step,
                                                  const struct node_problem *problem,
                                                  const struct contact_start *start, double last)
@@ -399,23 +455,23 @@ static enum contact_step_end solve_with_friction(struct contact_step *step,
     const struct scene *scene = problem->scene;
     size_t size = scene_rows(scene) * sizeof *step->force;
     for (int round = 0; round < MOST_ROUNDS; round++) {
-        double change = 0.0;
+        struct round_change change;
         memcpy(step->before, step->force, size);
         enum contact_step_end end = solve_normals(step, problem, start);
         if (end != STEP_SOLVED)
             return end;
-        for (size_t i = 0; i < scene->frictions; i++) {
-            size_t row = scene_tangent(scene, i);
-            const struct friction_way way = way_of(step, scene, i, start);
-            friction_step_nodes(&step->friction, i, &way, step->force[scene->friction[i].contact],
-                                step->force + row, step->stiffness + row);
-            change = larger(change, change_of(step, scene, i));
-        }
-        if (round > 0 && change <= last)
-            return STEP_SOLVED;
+        for (size_t i = 0; i < scene->frictions; i++)
+            walk_nodes(step, scene, i, start);
         if (!improve_tangents(step, problem))
             return STEP_UNSOLVED;
         step->iterations++;
+        for (size_t i = 0; i < scene->frictions; i++)
+            find_change(step, scene, i, &change);
+        if (round > 0 && largest_change(&change, scene->frictions) <= last) {
+            for (size_t i = 0; i < scene->frictions; i++)
+                follow_tangents(step, scene, i);
+            return STEP_SOLVED;
+        }
     }
     return STEP_UNSOLVED;
 }
@@ -437,10 +493,12 @@ static double end_tangents(struct contact_step *step, const struct scene *scene,
                            const struct contact_start *start)
 {
     size_t rows = scene_rows(scene);
-    double changed = 0.0;
+    struct round_change changed;
     for (size_t i = 0; i < scene->frictions; i++) {
         size_t row = scene_tangent(scene, i);
-        double limit = scene->friction[i].coefficient * step->end_force[scene->friction[i].contact];
+        changed.limit[i] =
+            scene->friction[i].coefficient * step->end_force[scene->friction[i].contact];
+        changed.change[i] = 0.0;
         double before[2] = {step->end_force[row], step->end_force[row + 1]};
         double stiffness[2];
         const struct friction_way way = way_of(step, scene, i, start);
@@ -452,11 +510,11 @@ static double end_tangents(struct contact_step *step, const struct scene *scene,
             double excess = *d + own * step->end_force[row + (size_t)j] -
                             less_residual(step, scene, row + (size_t)j);
             *d -= excess / (1.0 + own * stiffness[j]);
-            double change = fabs(step->end_force[row + (size_t)j] - before[j]);
-            changed = larger(changed, change > 0.0 ? change / limit : 0.0);
+            changed.change[i] =
+                larger(changed.change[i], fabs(step->end_force[row + (size_t)j] - before[j]));
         }
     }
-    return changed;
+    return largest_change(&changed, scene->frictions);
 }
 
 /* Solves the step's end, as exactly as the nodes. */
@@ -504,9 +562,9 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .taken = step->taken,
         .last_change = step->last_change,
     };
-    double last = step->last_change * step->last_change; /* of a linear iteration: as exact */
-    enum contact_step_end end = scene->frictions ? solve_with_friction(step, &problem, start, last)
-                                                 : solve_normals(step, &problem, start);
+    enum contact_step_end end = scene->frictions
+                                    ? solve_with_friction(step, &problem, start, step->last_slide)
+                                    : solve_normals(step, &problem, start);
     if (end != STEP_SOLVED)
         return end;
     if (step->midpoint.damped)
@@ -515,7 +573,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     find_approaches(step, scene, level);
     for (size_t c = 0; c < scene_rows(scene); c++)
         step->end_indentation[c] = collocation_last(step->indentation[c]);
-    bool ends =
-        scene->frictions ? end_with_friction(step, scene, start, last) : find_end(step, scene);
+    bool ends = scene->frictions ? end_with_friction(step, scene, start, step->last_slide)
+                                 : find_end(step, scene);
     return ends ? STEP_SOLVED : STEP_UNSOLVED;
 }

@@ -29,7 +29,10 @@ struct contact_step {
     double *matrix;                /* contacts^2 */
     double *together;              /* (contacts NODES)^2; NULL before a solution of all at once */
     double *approach, *end_force;
-    double (*before)[NODES]; /* with friction: forces of the round before */
+    /* with friction: [row] forces of the round before, the last change of tangents' displacements,
+     * and their forces' relative change that ends the rounds */
+    double (*before)[NODES], (*change)[NODES];
+    double last_slide;
     struct friction_step friction;
     struct arena *arena;
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): none */

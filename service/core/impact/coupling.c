@@ -27,10 +27,12 @@ static void find_pairs(struct coupling *coupling, const struct scene *scene)
         for (size_t b = 0; b < n; b++) {
             double w = scene->w[a * n + b];
             double residual = scene->residual[a * n + b];
+            /* one of both may be a rounding */
+            bool both = w != 0.0 || scene->w[b * n + a] != 0.0 || residual != 0.0 ||
+                        scene->residual[b * n + a] != 0.0;
             if (a == b)
                 coupling->own[a] = coupling->by_modes ? a : count;
-            if (a == b || w != 0.0 || residual != 0.0 ||
-                (!coupling->by_modes && share_modes(scene, a, b)))
+            if (a == b || both || (!coupling->by_modes && share_modes(scene, a, b)))
                 coupling->pairs[count++] = (struct coupling_pair){b, w, residual};
         }
     }

@@ -52,7 +52,8 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     if (n == 0)
         return true;
     step->now = arena_take(arena, 3 * n, sizeof *step->now);
-    if (!step->now)
+    step->stuck = arena_take(arena, n, sizeof *step->stuck);
+    if (!step->now || !step->stuck)
         return false;
     step->along = step->now + n;
     step->after = step->along + n;
@@ -112,8 +113,9 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
         double share = solved_share(along, normal[node]);
         for (int j = 0; j < 2; j++) {
             force[j][node] = share * sum[j];
-            stiffness[j][node] = along->ratio[2 * j] * along->stuck;
+            stiffness[j][node] = along->resists[j];
         }
+        step->stuck[i][node] = along->stuck;
     }
 }
 
@@ -130,7 +132,7 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
     double share = solved_share(after, normal);
     for (int j = 0; j < 2; j++) {
         force[j] *= share;
-        stiffness[j] = after->ratio[2 * j] * after->stuck;
+        stiffness[j] = after->resists[j];
     }
 }
 

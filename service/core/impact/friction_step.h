@@ -13,13 +13,14 @@
 #include "impact/scene.h"
 
 /* Parts of a way between two nodes. */
-enum { FRICTION_PARTS = 4 };
+enum { FRICTION_PARTS = 2 };
 
 struct friction_step {
     size_t count;           /* contacts with friction */
     struct friction *now;   /* [count]: histories at the present */
     struct friction *along; /* [count]: on the step under way, up to its last node */
     struct friction *after; /* [count]: at its end */
+    double (*stuck)[NODES]; /* [count]: stiffness of the cells that stick at the nodes, N/m */
     /* Lagrange's polynomials at the points of the ways to the nodes, through the start and the
      * nodes; on the way from the last node to the end through the end as well */
     double to_node[NODES][FRICTION_PARTS][NODES + 1];

@@ -172,13 +172,13 @@ void track_work(struct track *track, double h, const double *force, const double
 }
 
 void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
-                 double (*const stiffness)[NODES])
+                 const double *stuck)
 {
     for (int j = 0; j < NODES; j++) {
         for (int t = 0; t < 2; t++)
             track->open.impulse_tangential[t] += h * collocation.weight[j] * force[t][j];
-        track->slid = track->slid || (normal[j] > 0.0 && stiffness[0][j] == 0.0);
-        track->stuck = track->stuck || stiffness[0][j] > 0.0;
+        track->slid = track->slid || (normal[j] > 0.0 && stuck[j] == 0.0);
+        track->stuck = track->stuck || stuck[j] > 0.0;
     }
 }
 

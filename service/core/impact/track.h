@@ -52,10 +52,10 @@ void track_step(struct track *track, double time, double h, const struct track_v
 /* Adds the work on the rigid gap, whose rates at the nodes these are. */
 void track_work(struct track *track, double h, const double *force, const double *rate);
 
-/* Adds the tangents' forces at the nodes of a step and the slopes of their law, 0 where all of the
- * contact slides, beside the normal ones. */
+/* Adds the tangents' forces at the nodes of a step beside the normal ones; `stuck`: the stiffness
+ * of what sticks there, 0 where all of the contact slides. */
 void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
-                 double (*const stiffness)[NODES]);
+                 const double *stuck);
 
 /* Ends the one under way: separation, or the end of the window. */
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate);

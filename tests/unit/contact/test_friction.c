@@ -7,6 +7,7 @@
 #include "contact/friction.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "check.h"
 
@@ -68,6 +69,60 @@ static void in_proportion(void **state)
             near_relative(force[1], fmin(rates[r], 1.0) * pow(d, 1.5), 1e-12);
         }
         assert_true((friction.lost > 0.0) == (rates[r] > 1.0));
+    }
+    arena_release(&arena);
+}
+
+/* A contact that slides on is dragged along the way, whatever the ellipse of its stiffness. */
+static void against_the_slip(void **state)
+{
+    (void)state;
+    static const double ratios[][3] = {{1.0, 0.0, 1.0}, {0.7, 0.0, 0.9}, {0.8, 0.1, 1.0}};
+    struct arena arena = {0};
+    for (size_t r = 0; r < COUNT(ratios); r++)
+        for (int degrees = 0; degrees < 180; degrees += 15) {
+            struct contact_law law;
+            struct friction friction = unit_friction(&law, 64, &arena);
+            double about = degrees * M_PI / 180.0, force[2];
+            memcpy(friction.ratio, ratios[r], sizeof friction.ratio);
+            friction_walk(&friction, 1.0, (const double[2]){0.0, 0.3}, force);
+            for (int i = 1; i <= 200; i++)
+                friction_walk(&friction, 1.0,
+                              (const double[2]){0.1 * i * cos(about), 0.3 + 0.1 * i * sin(about)},
+                              force);
+            near(force[0], cos(about), 1e-4);
+            near(force[1], sin(about), 1e-4);
+            near_relative(hypot(force[0], force[1]), 1.0, 1e-7);
+        }
+    arena_release(&arena);
+}
+
+/* A slip that turns: an eighth of a circle in steps of 1/8 and of 1/64 of the limit's elastic
+ * displacement. The force lags behind it. */
+static void around_a_circle(void **state)
+{
+    (void)state;
+    static const double ratios[][3] = {{1.0, 0.0, 1.0}, {0.7, 0.0, 0.9}};
+    struct arena arena = {0};
+    for (size_t r = 0; r < COUNT(ratios); r++) {
+        double end[2][2];
+        for (int fine = 0; fine < 2; fine++) {
+            struct contact_law law;
+            struct friction friction = unit_friction(&law, 64, &arena);
+            int steps = fine ? 96 : 12;
+            memcpy(friction.ratio, ratios[r], sizeof friction.ratio);
+            friction_walk(&friction, 1.0, (const double[2]){0.0, 0.0}, end[fine]);
+            friction_walk(&friction, 1.0, (const double[2]){4.0, 0.0}, end[fine]);
+            for (int i = 1; i <= steps; i++) {
+                double about = 0.25 * M_PI * i / steps;
+                friction_walk(&friction, 1.0,
+                              (const double[2]){2.0 + 2.0 * cos(about), 2.0 * sin(about)},
+                              end[fine]);
+            }
+        }
+        near(end[0][0], end[1][0], 6e-3);
+        near(end[0][1], end[1][1], 6e-3);
+        assert_true(end[1][1] > 0.3);
     }
     arena_release(&arena);
 }
@@ -223,6 +278,7 @@ static void in_a_groove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_the_slip),       cmocka_unit_test(around_a_circle),
         cmocka_unit_test(cycles_of_displacement), cmocka_unit_test(in_proportion),
         cmocka_unit_test(ratios_of_ellipses),     cmocka_unit_test(spheres_at_angles),
         cmocka_unit_test(in_two_directions),      cmocka_unit_test(in_a_groove),

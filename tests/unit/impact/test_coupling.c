@@ -160,13 +160,34 @@ static void blocks_are_those_of_pairs(void **state)
     toy_free(&toy);
 }
 
+/* Rounding may leave one of two elements of W that are zero. */
+static void one_of_both_is_rounding(void **state)
+{
+    (void)state;
+    for (size_t a = 0; a < 3; a++)
+        for (size_t b = 0; b < 3; b++) {
+            struct toy toy;
+            double by[STEP_POINTS][NODES];
+            if (a == b)
+                continue;
+            toy_init(&toy, 3);
+            toy.w[3 * a + b] = 1e-17;
+            struct coupling coupling = prepared(&toy, LEVEL);
+            for (size_t c = 0; c < 3; c++) {
+                coupling_between(&toy.scene, LEVEL, c, c, by);
+                const struct coupling_block *own = coupling_own(&coupling, LEVEL, c);
+                assert_memory_equal(own->by, by, sizeof by);
+            }
+            toy_free(&toy);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_are_those_of_blocks),
-        cmocka_unit_test(a_rigid_block),
-        cmocka_unit_test(only_what_is_shared),
-        cmocka_unit_test(blocks_are_those_of_pairs),
+        cmocka_unit_test(sums_are_those_of_blocks), cmocka_unit_test(a_rigid_block),
+        cmocka_unit_test(only_what_is_shared),      cmocka_unit_test(blocks_are_those_of_pairs),
+        cmocka_unit_test(one_of_both_is_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
