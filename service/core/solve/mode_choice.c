@@ -53,9 +53,7 @@ static size_t find_demands(const struct problem *problem, const struct scene *sc
         if (!load)
             continue;
         /* a tangent is about as stiff as its contact */
-        size_t contact =
-            r < scene->contacts ? r : scene->friction[(r - scene->contacts) / 2].contact;
-        demands[count] = make_demand(scene, contact, rate, load);
+        demands[count] = make_demand(scene, problem_row_contact(problem, r), rate, load);
         compliance[r] = modal_compliance(problem->bodies[body], family, load, load);
         demands[count++].left = compliance[r];
     }

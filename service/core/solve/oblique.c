@@ -93,6 +93,9 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
         count += find_coefficient(problem, catalogue, c, &friction);
     if (count == 0)
         return PERCUSS_OK;
+    if (problem->request->options.friction == PERCUSS_FRICTION_PLAIN)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.friction: plain: not computed yet: micro-slip or none");
     if (problem->request->delassus)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "delassus: it must be absent where a contact has friction, as it says "
@@ -136,10 +139,12 @@ bool oblique_find_rows(struct problem *problem)
     problem->row_w = arena_take(problem->arena, rows * rows, sizeof *problem->row_w);
     if (!problem->row_w)
         return false;
+    /* symmetric to the bit: rows of which one moves the other by rounding alone are not coupled one
+     * way */
     for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < rows; j++)
-            problem->row_w[i * rows + j] =
-                i < n && j < n ? problem->w[i * n + j] : problem_inverse_mass(problem, i, j);
+        for (size_t j = 0; j <= i; j++)
+            problem->row_w[i * rows + j] = problem->row_w[j * rows + i] =
+                i < n ? problem->w[i * n + j] : problem_inverse_mass(problem, i, j);
     return true;
 }
 

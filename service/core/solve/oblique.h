@@ -9,7 +9,7 @@
 #include "solve/problem.h"
 
 /* Coefficients by the request or the catalogue, tangents and loads of the placed contacts.
- * PERCUSS_OK, BAD_REQUEST (a delassus beside friction) or INTERNAL without memory. */
+ * PERCUSS_OK, BAD_REQUEST (a delassus beside friction, the plain law) or INTERNAL without memory. */
 enum percuss_status oblique_find(struct problem *problem, const struct body_set *catalogue,
                                  struct fault *fault);
 

@@ -102,7 +102,6 @@ struct outcome_difference outcome_compare(const struct problem *problem,
         double change = fabs(a->tracks[c].impulse - b->tracks[c].impulse);
         double compression = problem->impulse_compression[c];
         largest.impulse = fmax(largest.impulse, change);
-        change = fmax(change, outcome_tangential_change(a, b, c));
         if (compression > 0.0)
             largest.restitution = fmax(largest.restitution, change / compression);
     }

@@ -32,8 +32,7 @@ double outcome_deepest(const struct impact_outcome *outcome, size_t contact);
 double outcome_rebound(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t contact);
 
-/* Largest differences between two solutions over the contacts; that of the restitution also of a
- * tangential impulse over the compression's. */
+/* Largest differences between two solutions over the contacts. */
 struct outcome_difference {
     double restitution, impulse;
 };

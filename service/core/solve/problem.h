@@ -123,6 +123,13 @@ static inline size_t problem_rows(const struct problem *problem)
     return problem->contact_count + 2 * problem->friction_count;
 }
 
+/* The contact of a row. */
+static inline size_t problem_row_contact(const struct problem *problem, size_t row)
+{
+    size_t n = problem->contact_count;
+    return row < n ? row : problem->friction[(row - n) / 2].contact;
+}
+
 /* One side of a row. */
 struct row_side {
     size_t body;

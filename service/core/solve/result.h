@@ -35,7 +35,9 @@ enum warning_kind {
     WARNING_UNSTATED = 21,
     WARNING_RIGID,
     WARNING_BREADTH = 24,
-    WARNING_KINDS = 26
+    WARNING_TURN = 26,
+    WARNING_JAM,
+    WARNING_KINDS
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -123,6 +123,17 @@ static void solution_conclude(const struct attempt_context *context, const struc
                    &solution->error.modes.impulse);
 }
 
+/* Of the first time steps. Of a single contact with friction the tangential force decides, whose
+ * error goes with the root of the accuracy. */
+static double first_accuracy(const struct problem *problem, bool sequence)
+{
+    bool group = problem->contact_count > 1;
+    double root = FRICTION_STEPS * problem->tolerance;
+    if (problem->friction_count && !group && problem->tolerance > TOLERANCE_AUDITED)
+        return fmin(root * root, MOST_STEPS_SEQUENCE);
+    return attempt_first_accuracy(problem->tolerance, sequence, group);
+}
+
 /* By as many modes and as short steps as the tolerance asks for. */
 static enum percuss_status solution_search(struct attempt_context *context,
                                            struct solution *solution)
@@ -135,10 +146,10 @@ static enum percuss_status solution_search(struct attempt_context *context,
     context->neighbours->solutions = 0;
     *solution = (struct solution){.neighbours = context->neighbours, .restitution_by_speed = NAN};
     /* steps as the tolerance asks for to begin with, and as many modes */
-    bool fine = sequence || problem->friction_count > 0;
-    struct attempt best = {
-        .accuracy = attempt_first_accuracy(problem->tolerance, fine, problem->contact_count > 1),
-        .profile = sequence ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
+    /* a tangential force bends within an impact */
+    bool careful = sequence || problem->friction_count > 0;
+    struct attempt best = {.accuracy = first_accuracy(problem, sequence),
+                           .profile = careful ? STEP_PROFILE_SEQUENCE : STEP_PROFILE_SINGLE};
     enum percuss_status status = refine_modes(context, &best, &solution->error.modes);
     if (status)
         return status;

@@ -294,11 +294,57 @@ static void find_sliding(const struct problem *problem, const struct impact_outc
             impulse = speed / w;
         snprintf(change, sizeof change, " and change that speed by up to %.3g m/s", w * impulse);
     }
-    warnings_add(warnings, WARNING_SLIDING,
-                 "contacts[%zu]: the bodies slide there at %.3g m/s, %.3g times the approach: "
-                 "friction is not modelled; with a coefficient of %.1f it could transmit up to "
-                 "%.3g N s along the surface%s",
-                 c, speed, speed / approach, FRICTION, impulse, change);
+    warnings_add(
+        warnings, WARNING_SLIDING,
+        "contacts[%zu]: the bodies slide there at %.3g m/s, %.3g times the approach: "
+        "without a coefficient of friction the answer has none; one of %.1f could transmit "
+        "up to %.3g N s along the surface%s",
+        c, speed, speed / approach, FRICTION, impulse, change);
+}
+
+/* Turn of the surfaces during a contact, rad, and slip over the contact's radius, from which on the
+ * tangents and the place of a contact with friction move with it: they are held. */
+static const double TURN = 0.02;
+static const double WAY = 0.3;
+
+/* The longest sub-impact's turn, by the spins before, and its slip. */
+static void find_turn(const struct problem *problem, const struct impact_outcome *outcome, size_t c,
+                      double radius, struct warnings *warnings)
+{
+    double duration = model_impact_of(problem, outcome, c).duration;
+    double way = norm3(problem->sliding[c]) * duration;
+    double turn = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const double *spin =
+            problem->request->bodies[problem->sides[c][which].body].angular_velocity;
+        turn = fmax(turn, norm3(spin) * duration);
+    }
+    if (!oblique_of(problem, c) || !(turn > TURN || way > WAY * radius))
+        return;
+    warnings_add(
+        warnings, WARNING_TURN,
+        "contacts[%zu]: its bodies turn by up to %.2g rad and slide by up to %.2g m during "
+        "a contact (its radius: %.2g m): the answer holds its place and its tangents still",
+        c, turn, way, radius);
+}
+
+/* Painleve: friction that presses the bodies together more than the rigid masses part them. */
+static void find_jam(const struct problem *problem, size_t c, struct warnings *warnings)
+{
+    size_t rows = problem_rows(problem);
+    const double *w = problem->row_w + c * rows;
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i];
+        size_t row = problem->contact_count + 2 * i;
+        double across = friction->coefficient * hypot(w[row], w[row + 1]);
+        if (friction->contact != c || !(across > w[c]))
+            continue;
+        warnings_add(warnings, WARNING_JAM,
+                     "contacts[%zu].friction: %g: sliding friction may press the bodies together "
+                     "by itself there, from %.3g on: the restitution by impulses says little; the "
+                     "velocities hold",
+                     c, friction->coefficient, friction->coefficient * w[c] / across);
+    }
 }
 
 /* Bodies taken as rigid that would not be; of balls see validity_wave_loss. */
@@ -351,6 +397,8 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_size(problem, outcome, c, axes[0], warnings);
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
+    find_turn(problem, outcome, c, axes[0], warnings);
+    find_jam(problem, c, warnings);
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);

@@ -68,7 +68,7 @@ cat >"$work/oblique.json" <<'JSON'
  "contacts": [{"a": 0, "b": 1, "point": [0, 0, 0.010], "normal": [0, 0, 1]}]}
 JSON
 expect 0 percuss query --request "$work/oblique.json"
-says "contacts[0]: the bodies slide there at 0.3 m/s, 1 times the approach: friction is not modelled"
+says "contacts[0]: the bodies slide there at 0.3 m/s, 1 times the approach: without a coefficient of friction"
 sed 's/\[0.3, 0, -0.3\]/[0.3, 0, -0.3], "angular_velocity": [0, 20, 0]/' "$work/oblique.json" >"$work/rolling.json"
 expect 0 percuss query --request "$work/rolling.json"
 ! grep -q slide "$err" || fail "rolling taken for sliding"

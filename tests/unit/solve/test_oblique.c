@@ -129,7 +129,7 @@ static void compare(struct bench *bench, const struct row *row, double about)
     measured("vibration", energy->vibration / energy->available, row->vibration, 1e-4);
     measured("first blow", 1e3 * track->list[0].impulse, row->first[0], 1e-3);
     measured("along the surface", -1e3 * track->list[0].impulse_tangential[0], row->first[1], 1e-3);
-    measured("closure", energy->closure / energy->available, 0.0, 1e-5);
+    measured("closure", energy->closure / energy->available, 0.0, 2e-5);
 }
 
 static void along_the_axis(void **state)
@@ -164,11 +164,118 @@ static void across_the_axis(void **state)
     bench_free(bench);
 }
 
+static struct solve_result result;
+
+static void refused(struct lab *lab, const struct solve_request *request, const char *why)
+{
+    solve(lab->workspace, &lab->means, request, &result);
+    assert_true(result.status == PERCUSS_BAD_REQUEST ||
+                result.status == PERCUSS_UNSUPPORTED_GEOMETRY);
+    if (!strstr(result.fault.text, why))
+        fail_msg("%s", result.fault.text);
+}
+
+static bool warned(const char *text)
+{
+    for (size_t i = 0; i < result.warning_count; i++)
+        if (strstr(result.warnings[i], text))
+            return true;
+    return false;
+}
+
+/* By a name, and with the way on; without friction all of them are answered. */
+static void what_has_no_friction(void **state)
+{
+    (void)state;
+    static const double w = 10.0;
+    struct lab *lab = lab_create();
+    struct material soft = ALUMINIUM;
+    soft.yield = 50e6;
+    struct body plate = make_body(&block_kind, ALUMINIUM);
+    plate.size[0] = plate.size[1] = 0.3;
+    plate.size[2] = 0.01;
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "soft", make_bar(&beam_kind, soft, 0.010, 1.0));
+    lab_add(lab, "plate", plate);
+    struct spot top = {"plate", {0.0, 0.0, 0.005}, {0.0, 0.0, 1.0}, 0.0};
+    for (int friction = 1; friction >= 0; friction--) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 1.0);
+        request.bodies[0].velocity[0] = 1.0;
+        request.contacts[0].friction = 0.3;
+        request.options.friction = friction ? PERCUSS_FRICTION_PLAIN : PERCUSS_FRICTION_NONE;
+        struct solve_request matrix = request, cvode = request, elements = request,
+                             yields = request,
+                             on_plate = strike(sphere_spot("ball", 0.015), top, 1.0);
+        if (friction) {
+            refused(lab, &request, "options.friction: plain");
+            cvode.options.friction = matrix.options.friction = PERCUSS_FRICTION_MICRO_SLIP;
+            elements.options.friction = yields.options.friction = PERCUSS_FRICTION_MICRO_SLIP;
+        }
+        cvode.options.method = PERCUSS_METHOD_CVODE;
+        matrix.delassus = &w;
+        elements.options.contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
+        snprintf(yields.bodies[1].id, sizeof yields.bodies[1].id, "soft");
+        on_plate.contacts[0].friction = 0.3;
+        on_plate.options.friction = cvode.options.friction;
+        if (friction) {
+            refused(lab, &matrix, "delassus: it must be absent");
+            refused(lab, &cvode, "contacts[0].friction: the method cvode");
+            refused(lab, &elements, "contacts[0].friction: finite elements");
+            refused(lab, &yields, "contacts[0].friction: the contact yields");
+            refused(lab, &on_plate, "contacts[0].friction: plate: its flexibility");
+        } else {
+            lab_solve(lab, &request, &result);
+            lab_solve(lab, &matrix, &result);
+            lab_solve(lab, &yields, &result);
+            lab_solve(lab, &on_plate, &result);
+            near(result.contacts[0].friction, 0.0, 0.0);
+        }
+    }
+    lab_free(lab);
+}
+
+/* A spin that turns the surfaces within a contact, and friction that jams a slender bar. */
+static void where_it_ends(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    struct body bar = make_bar(&beam_kind, STEEL, 0.00635, 0.2);
+    bar.tip_radius = 0.00635;
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(lab, "bar", bar);
+    lab_add(lab, "wall", rigid_wall());
+    struct solve_request spins = strike(sphere_spot("ball", 0.015), wall_spot("wall"), 1.0);
+    spins.contacts[0].friction = 0.1;
+    lab_solve(lab, &spins, &result);
+    assert_false(warned("turn by up to"));
+    spins.bodies[0].angular_velocity[1] = 2000.0;
+    lab_solve(lab, &spins, &result);
+    assert_true(warned("turn by up to"));
+    /* the cap of a bar 26.6 degrees from upright: coefficients above some 4/3 jam */
+    double lean = 26.6 * M_PI / 180.0;
+    struct spot cap = {"bar",
+                       {-0.1 + 0.00635 * (1.0 - cos(lean)), 0.0, -0.00635 * sin(lean)},
+                       {-cos(lean), 0.0, -sin(lean)},
+                       0.0};
+    struct solve_request leans = strike(cap, wall_spot("wall"), 1.0);
+    leans.contacts[0].friction = 0.5;
+    lab_solve(lab, &leans, &result);
+    assert_false(warned("may press the bodies together"));
+    leans.contacts[0].friction = 1.6;
+    solve(lab->workspace, &lab->means, &leans, &result);
+    assert_true(warned("may press the bodies together"));
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(along_the_axis),
         cmocka_unit_test(across_the_axis),
+        cmocka_unit_test(what_has_no_friction),
+        cmocka_unit_test(where_it_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -205,15 +205,18 @@ double attempt_first_accuracy(double tolerance, bool sequence, bool group)
     return fmax(fmin(share * tolerance, most), FINEST_STEPS);
 }
 
-/* Effect of omitting mode k on the impulse of a contact, as a part of that of compression: its
- * response to a slow force lacks inertia and viscosity (struct omitted in assembly.h). */
+/* Effect of omitting mode k, as row r sees it, on the impulse of the row's contact, as a part of that
+ * of compression: its response to a slow force lacks inertia and viscosity (struct omitted in
+ * assembly.h). The force along a tangent counts as one like the contact's: as a static flexibility
+ * alone a slow mode would let the surfaces go with each other. */
 static double omission_effect(const struct problem *problem, const struct impact_outcome *answer,
-                              const struct scene_group *group, size_t k, size_t contact)
+                              const struct scene_group *group, size_t k, size_t r)
 {
+    size_t contact = problem_row_contact(problem, r);
     const struct track *track = &answer->tracks[contact];
     double compression = problem->impulse_compression[contact];
     double omega = group->set->omega[k];
-    double share = group->participation[contact][k] / omega;
+    double share = group->participation[r][k] / omega;
     double inertia = share * share / (omega * omega) * track->inertia;
     double viscosity = 2.0 * group->set->damping[k] * share * share / omega * track->viscosity;
     double rate = compression * problem->w[contact * (problem->contact_count + 1)];
@@ -224,15 +227,15 @@ static double omission_effect(const struct problem *problem, const struct impact
 static size_t count_kept(const struct problem *problem, const struct impact_outcome *answer,
                          const struct scene_group *group, double allowed)
 {
-    double sum[PERCUSS_MAX_CONTACTS] = {0.0};
+    double sum[SCENE_MOST_ROWS] = {0.0};
     if (group->q || group->v)
         return group->count;
     for (size_t left = group->count; left > 0; left--)
-        for (size_t c = 0; c < problem->contact_count; c++) {
-            if (!group->participation[c])
+        for (size_t r = 0; r < problem_rows(problem); r++) {
+            if (!group->participation[r])
                 continue;
-            sum[c] += omission_effect(problem, answer, group, left - 1, c);
-            if (sum[c] > allowed)
+            sum[r] += omission_effect(problem, answer, group, left - 1, r);
+            if (sum[r] > allowed)
                 return (left + LANES - 1) / LANES * LANES;
         }
     return 0;

@@ -59,6 +59,15 @@ static const double STEPS_LEFT_POWER = 0.8;
  * by the accuracy's root: cells, and bends of the force (tests/unit/impact/test_friction_step.c).
  */
 static const double FRICTION_LEFT = 0.04;
+/* Root of the accuracy of the first steps of a contact with friction, in tolerances: the tangential
+ * speed is right to the tolerance of the coefficient's (tests/physics/test_oblique.c). */
+static const double FRICTION_STEPS = 3.0;
+/* Of the energy, what the cells' books of it miss, by the accuracy's root: it is none of the normal
+ * force's. */
+static const double FRICTION_BOOKS = 0.04;
+/* Accuracy of the steps of solutions with other coefficients, which change a tangential impulse by
+ * some 20 %: they leave 1e-3 of it. */
+static const double PERTURBED_FRICTION = 1e-4;
 /* A tolerance that demands an energy audit of a tenth of it; others close to CLOSURE tolerances. */
 static const double TOLERANCE_AUDITED = 1e-8;
 static const double CLOSURE = 10.0;

@@ -426,8 +426,8 @@ static enum percuss_status amplify(const struct model_margin *margin, struct pac
 /* A deviation takes no more of a coefficient. */
 static const double LEAST_COEFFICIENT = 0.01;
 
-/* Solves again with all coefficients a deviation larger and smaller, with the answer's steps: the
- * changes of e and of the tangential impulses. */
+/* Solves again with all coefficients a deviation larger, and of sequences smaller: the changes of e
+ * and of the tangential impulses. */
 static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
                                        struct model_error *error)
 {
@@ -441,14 +441,14 @@ static enum percuss_status by_friction(const struct model_margin *margin, struct
     if (!friction)
         return PERCUSS_INTERNAL;
     scene.friction = friction;
-    for (int sign = -1; sign <= 1; sign += 2) {
+    for (int sign = is_sequence(margin) ? -1 : 1; sign <= 1; sign += 2) {
         for (size_t i = 0; i < n; i++) {
             const struct contact_friction *of = &problem->friction[i];
             friction[i] = solution->scene->friction[i];
             friction[i].coefficient =
                 fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
         }
-        struct attempt attempt = {.accuracy = solution->step_accuracy,
+        struct attempt attempt = {.accuracy = fmax(solution->step_accuracy, PERTURBED_FRICTION),
                                   .assembly = solution->assembly,
                                   .profile = solution->step_profile};
         enum percuss_status status = attempt_run(&context, &attempt, &scene);

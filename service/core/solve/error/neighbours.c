@@ -18,6 +18,7 @@ void neighbours_begin(struct neighbours *neighbours, const struct problem *probl
         neighbours->low[c] = neighbours->high[c] = outcome_restitution(problem, answer, c);
         neighbours->weakest[c] = neighbours->strongest[c] = answer->tracks[c].impulse;
         neighbours->fewest[c] = neighbours->most[c] = answer->tracks[c].count;
+        neighbours->tangential[c] = 0.0;
     }
 }
 
@@ -29,6 +30,9 @@ void neighbours_add(struct neighbours *neighbours, const struct problem *problem
     for (size_t c = 0; c < problem->contact_count; c++) {
         double e = outcome_restitution(problem, other, c);
         size_t count = other->tracks[c].count;
+        neighbours->tangential[c] =
+            fmax(neighbours->tangential[c],
+                 outcome_tangential_change(&neighbours->answer, other, c));
         neighbours->low[c] = fmin(neighbours->low[c], e);
         neighbours->high[c] = fmax(neighbours->high[c], e);
         neighbours->weakest[c] = fmin(neighbours->weakest[c], other->tracks[c].impulse);

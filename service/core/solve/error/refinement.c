@@ -366,15 +366,17 @@ enum { MAX_RAISES = 8 };
 
 /* To first order, as if the omitted modes followed the force slowly: their inertia and viscosity
  * change the approach by -inertia F'' - viscosity F', which does work on the contact's stiffness.
- * Effect on the restitution, of the contact where it is largest. */
+ * Effect on the restitution, of the contact where it is largest, and of a tangent alike: it is about
+ * as stiff. */
 static struct outcome_difference slow_effect(const struct attempt_context *context,
                                              const struct attempt *attempt)
 {
     const struct problem *problem = context->problem;
     struct outcome_difference largest = {0.0, 0.0};
-    for (size_t c = 0; c < problem->contact_count; c++) {
+    for (size_t r = 0; r < problem_rows(problem); r++) {
+        size_t c = problem_row_contact(problem, r);
         const struct track *track = &attempt->outcome.tracks[c];
-        const struct omitted *omitted = &attempt->assembly->omitted[c];
+        const struct omitted *omitted = &attempt->assembly->omitted[r];
         /* impulse by the inertia, energy by the viscosity */
         double compression = problem->impulse_compression[c];
         double impulse = omitted->inertia * track->inertia;
@@ -523,7 +525,10 @@ static double error_of_steps(const struct attempt_context *context, const struct
     double e = best->outcome.plastic > 0.0 ? 0.0 : LEAST_REBOUND;
     for (size_t c = 0; c < context->problem->contact_count; c++)
         e = fmax(e, fabs(outcome_restitution(context->problem, &best->outcome, c)));
-    double defect = DEFECT_FACTOR * outcome_energy_defect(context->problem, &best->outcome);
+    double defect = outcome_energy_defect(context->problem, &best->outcome);
+    if (context->problem->friction_count)
+        defect = fmax(0.0, defect - FRICTION_BOOKS * sqrt(best->accuracy));
+    defect *= DEFECT_FACTOR;
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
     return fmax(change, attempt_steps_leave(best->accuracy));

@@ -83,22 +83,23 @@ static double numerical(const struct problem *problem, const struct solution *so
     return fmax(error, steps * scale) + solution->error.states.restitution * scale;
 }
 
-/* Of the tangential impulses: modes and steps as that of the restitution, which has their changes
- * in it, the cells and the steps that bends need, and the models by the coefficient's deviation and
- * as the normal impulse. */
+/* Of the tangential impulses: modes and steps by what they do to the normal ones, by the solutions
+ * beside and by what cells and bends of the force leave; the models by the coefficient's deviation
+ * and by the normal impulse. */
 static void report_tangential(const struct problem *problem, const struct solution *solution,
                               struct solve_result *result)
 {
     for (size_t i = 0; i < problem->friction_count; i++) {
         const struct contact_friction *friction = &problem->friction[i];
-        struct solve_contact_result *contact = &result->contacts[friction->contact];
-        double scale = outcome_impulse_scale(problem, &solution->outcome, friction->contact);
-        double numerical = (result->restitution_time + result->restitution_modes) * scale;
-        double cells =
-            FRICTION_LEFT * sqrt(solution->step_accuracy) * friction->coefficient * scale;
-        double models = hypot(solution->error.models.tangential[friction->contact],
+        size_t c = friction->contact;
+        struct solve_contact_result *contact = &result->contacts[c];
+        double limit = friction->coefficient * outcome_impulse_scale(problem, &solution->outcome, c);
+        double normal = (result->restitution_time + result->restitution_modes) * limit;
+        double cells = FRICTION_LEFT * sqrt(solution->step_accuracy) * limit;
+        double models = hypot(solution->error.models.tangential[c],
                               friction->coefficient * contact->impulse_error_model);
-        contact->impulse_tangential_error = numerical + cells + models;
+        contact->impulse_tangential_error =
+            normal + fmax(cells, solution->neighbours->tangential[c]) + models;
     }
 }
 
