@@ -239,7 +239,7 @@ static void yields(void **state)
     lab_free(e.lab);
 }
 
-/* Askew by an angle the gap rate is the speed times its cosine: friction is not modelled. */
+/* Askew by an angle the gap rate is the speed times its cosine: no friction is stated. */
 static void direction_is_a_cosine(void **state)
 {
     (void)state;

@@ -151,7 +151,7 @@ bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number, struct
     uint64_t r = 0x9e3779b97f4a7c15u * (number * SEEDS + (uint64_t) class + 1);
     for (int i = 0; i < 16; i++)
         random_between(&r, 0.0, 1.0);
-    lab->set.count = 0;
+    lab->set.count = lab->set.friction_count = 0;
     memset(scene, 0, sizeof *scene);
     bool drawn = true;
     if (class == CLASS_SINGLE)
@@ -168,6 +168,8 @@ bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number, struct
         scene_draw_eccentric(lab, &r, scene);
     else if (class == CLASS_CHAIN)
         scene_draw_chain(lab, &r, number, scene);
+    else if (class == CLASS_OBLIQUE)
+        scene_draw_oblique(lab, &r, scene);
     else
         scene_draw_rolled(lab, &r, scene);
     if (class != CLASS_ROLLED)

@@ -16,7 +16,8 @@
     X(RINGING, "ringing", "a second blow on bodies that ring from the first")                      \
     X(ECCENTRIC, "eccentric", "a sphere beside the axis of a rectangular bar")                     \
     X(ROLLED, "rolled", "two flexible bars, rolled about their axes")                              \
-    X(CHAIN, "chain", "two to five blows by token, damped or not")
+    X(CHAIN, "chain", "two to five blows by token, damped or not")                                  \
+    X(OBLIQUE, "oblique", "contacts with friction, at any angle")
 
 enum scene_class {
 #define X(name, word, text) CLASS_##name,
@@ -67,6 +68,7 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
 void scene_draw_chain(struct lab *lab, uint64_t *r, uint64_t number, struct scene_drawn *scene);
 void scene_draw_eccentric(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_rolled(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
+void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 
 /* A beam of any ends in the lab under that id; returns it. */
 const struct body *scene_beam(struct lab *lab, uint64_t *r, const char *id);

@@ -20,6 +20,7 @@ struct verdict {
     double reported_impulse, true_impulse_error, impulse_spread; /* N s, of any contact */
     bool met;
     bool impulses, velocities; /* each contact's and each body's own error covers it */
+    bool tangential;           /* and each tangential impulse's */
     size_t sub_impacts, true_sub_impacts;
     size_t modes;   /* of all bodies */
     double seconds; /* processor time */
@@ -31,6 +32,7 @@ enum { TALLY_NAMED = 12 };
 struct tally {
     size_t judged, met, covered, impulse_covered, wrong, miscounted;
     size_t impulses, velocities; /* covered of every contact, of every body */
+    size_t tangential;           /* covered tangential impulses of every contact */
     size_t unsettled;            /* the reference did not converge to a tenth of the tolerance */
     size_t unsettled_met;        /* and the answer claims to be within its tolerance */
     size_t unsolved;             /* no restitution in the answer */

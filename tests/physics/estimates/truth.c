@@ -209,6 +209,24 @@ bool truth_find(struct truth_room *room, const struct body_set *set,
     }
 }
 
+void truth_by_answer(const struct solve_result *result, struct truth *truth)
+{
+    double largest = 0.0;
+    memset(truth, 0, sizeof *truth);
+    truth->contacts = result->contact_count;
+    truth->end_reason = result->end_reason;
+    truth->spread = result->restitution_time + result->restitution_modes;
+    for (size_t c = 0; c < truth->contacts; c++) {
+        const struct solve_contact_result *contact = &result->contacts[c];
+        truth->impulse[c] = contact->impulse;
+        truth->compression[c] = contact->impulse_compression;
+        truth->sub_impacts += contact->sub_impact_count;
+        largest = fmax(largest, contact->impulse_compression);
+        memcpy(truth->tangential[c], contact->impulse_tangential, sizeof truth->tangential[c]);
+    }
+    truth->impulse_spread = truth->spread * largest;
+}
+
 bool truth_by_cvode(struct truth_room *room, const struct body_set *set,
                     const struct solve_request *request, const struct truth_settings *settings,
                     struct truth *truth)

@@ -28,6 +28,7 @@ struct truth_effect {
 struct truth {
     size_t contacts, sub_impacts; /* of all contacts together */
     double impulse[PERCUSS_MAX_CONTACTS];
+    double tangential[PERCUSS_MAX_CONTACTS][2];
     double compression[PERCUSS_MAX_CONTACTS]; /* impulses, Eq. (4) */
     struct truth_effect effect[PERCUSS_MAX_CONTACTS][2];
     double spread;         /* between the last two solutions, in restitution; INFINITY: no two */
@@ -48,6 +49,9 @@ void truth_room_free(struct truth_room *room);
 bool truth_find(struct truth_room *room, const struct body_set *set,
                 const struct solve_request *request, const struct truth_settings *settings,
                 struct truth *truth);
+
+/* By an answer whose tolerance is as tight as is affordable, for contacts with friction. */
+void truth_by_answer(const struct solve_result *result, struct truth *truth);
 
 /* One solution by CVODE with so many modes of each family: nothing of the modal method's
  * integration in time is in it. */

@@ -1,0 +1,407 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Impacts with friction, request by request: balls on walls and bars dropped askew against programs
+ * of their own (foundations of 2000 cells; Timoshenko's bars by modes, in steps of 50 ns), and what
+ * must not change an answer. */
+#include "physics/support.h"
+
+static const double RADIUS = 0.01;
+
+/* ---- A ball on a wall ---- */
+
+/* A ball comes to a wall at 1 m/s, its surface sliding along t at `slip` m/s: half by its motion,
+ * half by its spin. */
+static struct solve_request thrown(const char *ball, double radius, double approach, double slip,
+                                   double mu)
+{
+    struct solve_request request = strike(sphere_spot(ball, radius), wall_spot("wall"), approach);
+    request.bodies[0].velocity[0] = 0.5 * slip;
+    request.bodies[0].angular_velocity[1] = -0.5 * slip / radius;
+    request.contacts[0].friction = mu;
+    request.contacts[0].tangent[0] = 1.0;
+    return request;
+}
+
+/* A rigid wall: kappa is that of two balls of steel, e = 1, no wave leaves. psi is
+ * kappa/mu slip/approach. */
+static void balls_at_angles(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const double KAI = 3.5 * 1.4 / 1.7 / 2.0;
+    static const double psi[][2] = {{0.25, 0.0416},         {0.5, 0.0478},         {0.75, 0.0142},
+                                    {1.0, -0.0597},         {1.25, -0.2188},       {1.5, -0.4280},
+                                    {2.0, -0.8372},         {2.5, -1.1623},        {3.0, -1.3797},
+                                    {3.5, -1.4773},         {4.0, -1.4365},        {4.5, -1.2176},
+                                    {5.0, 5.0 - 4.0 * KAI}, {6.5, 6.5 - 4.0 * KAI}};
+    static const double tolerance[] = {0.0, 1e-4};
+    static const double mu = 0.25, kappa = 1.4 / 1.7;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, RADIUS));
+    lab_add(lab, "wall", rigid_wall());
+    for (size_t t = 0; t < COUNT(tolerance); t++)
+        for (size_t i = 0; i < COUNT(psi); i++) {
+            struct solve_request request = thrown("ball", RADIUS, 1.0, psi[i][0] * mu / kappa, mu);
+            request.options.tolerance = tolerance[t];
+            lab_solve(lab, &request, &result);
+            const struct solve_contact_result *contact = &result.contacts[0];
+            /* with the half digit of the values */
+            measured("slip after", contact->slip_after[0] * kappa / mu, psi[i][1],
+                     (t ? 1e-4 : 1e-3) + 5e-5);
+            near(contact->slip_after[1], 0.0, 1e-12);
+            near(contact->restitution, 1.0, t ? 1e-5 : 1e-4);
+            /* by the books of the cells, whose walk has two parts a node */
+            near(result.energy.closure / result.energy.available, 0.0, t ? 5e-5 : 2e-4);
+            assert_int_equal(contact->friction_state,
+                             psi[i][0] > 4.0 * KAI ? PERCUSS_FRICTION_STATE_SLID
+                             : psi[i][1] > 0.0     ? PERCUSS_FRICTION_STATE_PARTLY
+                                                   : PERCUSS_FRICTION_STATE_REVERSED);
+        }
+    lab_free(lab);
+}
+
+/* Kharaz, Gorham and Salman's ball of alumina, 5 mm, on glass at 3.85 m/s, mu 0.092 (Powder
+ * Technol. 120 (2001) 281), by a foundation of 2000 cells with e = 1: their wall, so light that no
+ * wave takes anything with it. */
+static void alumina_on_glass(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const struct material alumina = {"alumina", 380e9, 0.23, 3840.0, INFINITY, 0.0};
+    static const struct material glass = {"light glass", 70e9, 0.25, 1e-3, INFINITY, 0.0};
+    /* degrees from the normal, rad/s, the centre's speed along the surface over that before */
+    static const double row[][3] = {{5, 88.6, 0.736},   {10, 243.1, 0.636}, {15, 408.1, 0.590},
+                                    {20, 537.0, 0.592}, {25, 615.7, 0.622}, {30, 613.5, 0.681},
+                                    {35, 580.3, 0.737}, {45, 500.9, 0.816}, {60, 354.2, 0.894}};
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(alumina, 0.0025));
+    lab_add(lab, "wall", make_body(&half_space_kind, glass));
+    for (size_t i = 0; i < COUNT(row); i++) {
+        double angle = row[i][0] * M_PI / 180.0, along = 3.85 * sin(angle);
+        struct solve_request request = thrown("ball", 0.0025, 3.85 * cos(angle), 0.0, 0.092);
+        request.bodies[0].velocity[0] = along;
+        request.options.tolerance = 1e-4;
+        lab_solve(lab, &request, &result);
+        near(result.contacts[0].restitution, 1.0, 1e-4);
+        measured("spin", result.bodies[0].angular_velocity[1], row[i][1], 0.15);
+        measured("centre", result.bodies[0].velocity[0] / along, row[i][2], 1e-3);
+    }
+    lab_free(lab);
+}
+
+/* ---- Bars dropped askew ---- */
+
+/* A bar with round ends in the model of the other program: the forces on a cap act on the end of a
+ * uniform bar of that length, with the cap's radius as their lever. */
+static struct lab *drop_lab(double length)
+{
+    static const double r = 6.35e-3;
+    static const struct material light = {"light steel", 210e9, 0.30, 1e-3, INFINITY, 0.0};
+    struct lab *lab = lab_create();
+    struct body made = make_bar(&beam_kind, STEEL, r, length + 2.0 * r);
+    made.tip_radius = r;
+    lab_add(lab, "bar", made);
+    lab_add(lab, "wall", make_body(&half_space_kind, light));
+    struct body *bar = &lab->bodies[0];
+    bar->span = length;
+    bar->mass = bar->material.density * bar->area * length;
+    bar->inertia[0] = 0.5 * bar->mass * r * r;
+    bar->inertia[1] = bar->inertia[2] = bar->mass * (length * length / 12.0 + 0.25 * r * r);
+    return lab;
+}
+
+/* The bar falls with 1 m/s, its axis at an angle to the surface. */
+static struct solve_request dropped(double length, double degrees, double mu)
+{
+    static const double r = 6.35e-3;
+    double angle = degrees * M_PI / 180.0;
+    struct spot spot = {"bar", {0.5 * length, 0.0, 0.0}, {sin(angle), 0.0, cos(angle)}, 0.0};
+    add_scaled3(r, spot.outward, spot.point);
+    struct solve_request request = strike(spot, wall_spot("wall"), 1.0);
+    request.contacts[0].friction = mu;
+    return request;
+}
+
+struct drop {
+    double degrees;
+    size_t blows;   /* without friction */
+    double e[3][2]; /* mu 0, 0.1, 0.2: by impulses, by speeds; 0: not known */
+};
+
+static void drop_all(double length, const struct drop *drops, size_t count)
+{
+    static struct solve_result result;
+    struct lab *lab = drop_lab(length);
+    for (size_t i = 0; i < count; i++)
+        for (int m = 0; m < 3; m++) {
+            struct solve_request request = dropped(length, drops[i].degrees, 0.1 * m);
+            const struct solve_contact_result *contact = &result.contacts[0];
+            char what[64];
+            if (drops[i].e[m][0] == 0.0)
+                continue;
+            request.options.tolerance = 1e-4;
+            lab_solve(lab, &request, &result);
+            snprintf(what, sizeof what, "L %g mm, %g degrees, mu %.1f", 1e3 * length,
+                     drops[i].degrees, 0.1 * m);
+            measured(what, contact->restitution, drops[i].e[m][0], 2e-3);
+            measured(what, contact->restitution_kinematic, drops[i].e[m][1], 2e-3);
+            if (m == 0)
+                assert_int_equal(contact->sub_impact_count, drops[i].blows);
+        }
+    lab_free(lab);
+}
+
+static void bars_dropped_askew(void **state)
+{
+    (void)state;
+    static const struct drop shorter[] = {
+        {90, 1, {{0.9963, 0.9963}, {0.9963, 0.9963}, {0.9963, 0.9963}}},
+        {80, 1, {{0.7247, 0.7247}, {0.9865, 0.8901}, {1.1194, 0.9671}}},
+        {75, 1, {{0.5010, 0.5010}, {0.7887, 0.6719}, {1.1503, 0.8813}}},
+        {70, 1, {{0.3014, 0.3014}, {0.5625, 0.4453}, {0.9220, 0.6400}}},
+        {65, 2, {{0.7123, 0.7123}, {0.3935, 0.2867}, {0.6631, 0.4055}}},
+        {60, 3, {{0.8025, 0.8025}, {0.8115, 0.7142}, {0.6292, 0.4189}}},
+        {45, 2, {{0.7564, 0.7564}, {0.8326, 0.7420}, {0.8963, 0.7176}}},
+        {30, 2, {{0.7237, 0.7237}, {0.7745, 0.7137}, {0.8134, 0.6983}}},
+        {10, 2, {{0.7234, 0.7234}, {0.7352, 0.7162}, {0.7448, 0.7094}}},
+    };
+    static const struct drop longer[] = {
+        {90, 1, {{0.989, 0.989}, {0.989, 0.989}}},  {80, 1, {{0.384, 0.384}, {0.787, 0.702}}},
+        {75, 2, {{0.477, 0.477}, {0.357, 0.271}}},  {70, 6, {{0.671, 0.671}, {0.352, 0.265}}},
+        {65, 9, {{0.617, 0.617}, {0.637, 0.550}}},  {60, 10, {{0.716, 0.716}, {0.731, 0.638}}},
+        {45, 11, {{0.760, 0.760}, {0.828, 0.741}}}, {30, 11, {{0.720, 0.720}, {0.772, 0.711}}},
+        {10, 11, {{0.698, 0.698}, {0.709, 0.691}}},
+    };
+    drop_all(0.2, shorter, COUNT(shorter));
+    drop_all(0.6, longer, COUNT(longer));
+}
+
+/* ---- What must not change an answer ---- */
+
+static struct material random_material(uint64_t *r)
+{
+    static const struct material list[] = {{"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0},
+                                           {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
+                                           {"glass", 48e9, 0.20, 2800.0, INFINITY, 0.0}};
+    return list[(int)random_between(r, 0.0, COUNT(list))];
+}
+
+/* One to three balls come down on a beam's side, askew and with spins. */
+static struct solve_request draw(struct lab *lab, uint64_t *r)
+{
+    double thickness = random_between(r, 0.003, 0.012), length = 0.4;
+    size_t count = 1 + (size_t)random_between(r, 0.0, 3.0);
+    struct solve_request request = {.body_count = count + 1, .contact_count = count};
+    lab_add(lab, "beam", make_bar(&beam_kind, random_material(r), thickness, length));
+    request.bodies[0] = (struct solve_body){.id = "beam", .orientation = {1.0, 0.0, 0.0, 0.0}};
+    for (size_t i = 0; i < count; i++) {
+        struct solve_body *ball = &request.bodies[i + 1];
+        double radius = thickness * random_between(r, 0.6, 2.0);
+        double x =
+            length * ((0.5 + (double)i + random_between(r, -0.3, 0.3)) / (double)count - 0.5);
+        *ball = (struct solve_body){.position = {x, 0.0, thickness + radius},
+                                    .velocity = {random_between(r, -0.5, 0.5),
+                                                 random_between(r, -0.5, 0.5),
+                                                 random_between(r, -0.6, -0.1)}};
+        snprintf(ball->id, sizeof ball->id, "ball%zu", i);
+        random_rotation(r, ball->orientation);
+        for (int j = 0; j < 3; j++)
+            ball->angular_velocity[j] = random_between(r, -20.0, 20.0);
+        lab_add(lab, ball->id, make_sphere(random_material(r), radius));
+        request.contacts[i] = (struct solve_contact){.a = (unsigned)i + 1,
+                                                     .b = 0,
+                                                     .point = {x, 0.0, thickness},
+                                                     .normal = {0.0, 0.0, 1.0},
+                                                     .friction = random_between(r, 0.05, 0.8)};
+    }
+    return request;
+}
+
+/* What two answers may differ by, e and impulses, is what both state of modes and steps: of `other`
+ * the contact `of[c]`, its impulse on the same body `sign` times, turned by q. */
+static void compare(const struct solve_result *answer, const struct solve_result *other,
+                    const size_t *of, double sign, const double q[4])
+{
+    double rotation[9], turned[3];
+    double left = answer->restitution_time + answer->restitution_modes + other->restitution_time +
+                  other->restitution_modes;
+    double largest = 0.0;
+    rotation_matrix(q, rotation);
+    for (size_t c = 0; c < answer->contact_count; c++)
+        largest = fmax(largest, answer->contacts[c].impulse_compression);
+    for (size_t c = 0; c < answer->contact_count; c++) {
+        const struct solve_contact_result *a = &answer->contacts[c], *b = &other->contacts[of[c]];
+        double scale = a->impulse_compression > 0.0 ? a->impulse_compression : largest;
+        if (a->impulse_compression > 0.0)
+            near(b->restitution, a->restitution, left);
+        rotate3(rotation, a->impulse_vector, turned);
+        add_scaled3(-sign, b->impulse_vector, turned);
+        measured("impulse", norm3(turned), 0.0, left * scale);
+        measured("friction", b->friction, a->friction, 0.0);
+    }
+}
+
+static const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0};
+enum { SCENES = 20 };
+
+static void turned_scenes(void **state)
+{
+    (void)state;
+    static struct solve_result result, other;
+    static const size_t same[] = {0, 1, 2};
+    uint64_t r = 11;
+    for (int i = 0; i < SCENES; i++) {
+        struct lab *lab = lab_create();
+        struct solve_request request = draw(lab, &r);
+        double q[4], shift[3] = {0.3, -0.2, 0.1}, drift[3] = {0.4, 0.1, -0.7};
+        random_rotation(&r, q);
+        lab_solve(lab, &request, &result);
+        move_scene(&request, q, shift, drift);
+        for (size_t c = 0; c < request.contact_count; c++) /* any tangents */
+            for (int j = 0; j < 3; j++)
+                request.contacts[c].tangent[j] = i % 2 ? random_between(&r, -1.0, 1.0) : 0.0;
+        lab_solve(lab, &request, &other);
+        compare(&result, &other, same, 1.0, q);
+        lab_free(lab);
+    }
+}
+
+static void exchanged_bodies(void **state)
+{
+    (void)state;
+    static struct solve_result result, other;
+    static const size_t same[] = {0, 1, 2}, turned[] = {2, 1, 0};
+    uint64_t r = 12;
+    for (int i = 0; i < SCENES; i++) {
+        struct lab *lab = lab_create();
+        struct solve_request request = draw(lab, &r);
+        struct solve_request exchanged = request;
+        size_t count = request.contact_count;
+        lab_solve(lab, &request, &result);
+        for (size_t c = 0; c < count; c++) {
+            struct solve_contact *contact = &exchanged.contacts[c];
+            contact->b = contact->a;
+            contact->a = 0;
+            scale3(-1.0, contact->normal, contact->normal);
+        }
+        lab_solve(lab, &exchanged, &other);
+        compare(&result, &other, same, -1.0, UPRIGHT);
+        /* and the contacts in another order */
+        for (size_t c = 0; c < count; c++)
+            exchanged.contacts[c] = request.contacts[count - 1 - c];
+        lab_solve(lab, &exchanged, &other);
+        compare(&result, &other, turned + 3 - count, 1.0, UPRIGHT);
+        lab_free(lab);
+    }
+}
+
+/* Everything mirrored in the plane of a wall's normal: the impulse along the surface turns back. */
+static void mirrored_slips(void **state)
+{
+    (void)state;
+    static struct solve_result result, other;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, RADIUS));
+    lab_add(lab, "wall", make_body(&half_space_kind, ALUMINIUM));
+    for (int i = 0; i < 8; i++) {
+        struct solve_request request = thrown("ball", RADIUS, 1.0, 0.25 * (i + 1), 0.25);
+        struct solve_request mirrored = thrown("ball", RADIUS, 1.0, -0.25 * (i + 1), 0.25);
+        lab_solve(lab, &request, &result);
+        lab_solve(lab, &mirrored, &other);
+        const struct solve_contact_result *a = &result.contacts[0], *b = &other.contacts[0];
+        near_relative(b->impulse_tangential[0], -a->impulse_tangential[0], 1e-12);
+        near_relative(b->impulse, a->impulse, 1e-13);
+        near_relative(result.energy.friction, other.energy.friction, 1e-12);
+    }
+    lab_free(lab);
+}
+
+/* Without friction an answer has the bits of one that never heard of it; the catalogue's
+ * coefficient gives those of the request's. */
+static void by_request_and_catalogue(void **state)
+{
+    (void)state;
+    static struct solve_result never, none, stated, listed;
+    uint64_t r = 13;
+    for (int i = 0; i < SCENES; i++) {
+        struct lab *lab = lab_create();
+        struct solve_request request = draw(lab, &r);
+        size_t count = request.contact_count, pairs = 0;
+        struct friction_pair pair[PERCUSS_MAX_CONTACTS];
+        for (size_t b = 0; b < lab->set.count; b++) /* one material each */
+            snprintf(lab->bodies[b].material.name, sizeof lab->bodies[b].material.name, "m%zu", b);
+        lab_solve(lab, &request, &stated);
+        request.options.friction = PERCUSS_FRICTION_NONE;
+        lab_solve(lab, &request, &none);
+        request.options.friction = PERCUSS_FRICTION_MICRO_SLIP;
+        for (size_t c = 0; c < count; c++) {
+            struct friction_pair *next = &pair[pairs++];
+            *next = (struct friction_pair){.between = {"m0"},
+                                           .coefficient = request.contacts[c].friction,
+                                           .deviation = FRICTION_USUAL_DEVIATION *
+                                                        request.contacts[c].friction};
+            snprintf(next->between[1], sizeof next->between[1], "m%zu", c + 1);
+            request.contacts[c].friction = 0.0;
+        }
+        lab_solve(lab, &request, &never);
+        lab->set.friction = pair;
+        lab->set.friction_count = pairs;
+        lab_solve(lab, &request, &listed);
+        for (size_t c = 0; c < count; c++) {
+            const struct solve_contact_result *a = &never.contacts[c], *b = &none.contacts[c];
+            near(b->impulse, a->impulse, 0.0);
+            near(b->impulse_error, a->impulse_error, 0.0);
+            assert_int_equal(b->friction_state, PERCUSS_FRICTION_STATE_NONE);
+            near(listed.contacts[c].impulse, stated.contacts[c].impulse, 0.0);
+            near(listed.contacts[c].friction, stated.contacts[c].friction, 0.0);
+            near(listed.contacts[c].impulse_tangential_error,
+                 stated.contacts[c].impulse_tangential_error, 0.0);
+            for (int t = 0; t < 2; t++)
+                near(listed.contacts[c].impulse_tangential[t],
+                     stated.contacts[c].impulse_tangential[t], 0.0);
+        }
+        assert_true(none.energy.friction == 0.0 && stated.energy.friction > 0.0);
+        lab->set.friction = NULL;
+        lab->set.friction_count = 0;
+        lab_free(lab);
+    }
+}
+
+/* Several blows on a slender beam that friction hardly changes: the models' error is about that
+ * without friction, whichever way the ball slides. */
+static void models_of_sequences(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, 0.004));
+    lab_add(lab, "beam",
+            make_supported(make_bar(&beam_kind, ALUMINIUM, 0.002, 0.3), SUPPORT_CLAMPED,
+                           SUPPORT_CLAMPED));
+    for (int i = 0; i < 12; i++) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.004), side_spot("beam", 0.02 * i - 0.11, 0.002, 0.0), 0.1);
+        double about = 0.5 * i, error[2];
+        for (int with = 0; with < 2; with++) {
+            for (int j = 0; j < 2; j++)
+                request.bodies[0].velocity[j] = with * (j ? sin(about) : cos(about)) * 0.1;
+            request.contacts[0].friction = with ? 0.02 : 0.0;
+            lab_solve(lab, &request, &result);
+            error[with] = result.restitution_model;
+        }
+        measured("models", error[1], error[0], 0.5 * error[0]);
+    }
+    lab_free(lab);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(balls_at_angles),          cmocka_unit_test(alumina_on_glass),
+        cmocka_unit_test(bars_dropped_askew),       cmocka_unit_test(turned_scenes),
+        cmocka_unit_test(exchanged_bodies),         cmocka_unit_test(mirrored_slips),
+        cmocka_unit_test(by_request_and_catalogue), cmocka_unit_test(models_of_sequences),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
