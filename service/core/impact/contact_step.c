@@ -50,11 +50,15 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
     step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
-    step->before = arena_take(arena, 2 * n, sizeof *step->before);
-    step->change = step->before + n;
     step->matrix = arena_reserve(arena, n * n, sizeof(double));
-    if (!step->indentation || !step->target || !step->approach || !step->before || !step->matrix)
+    if (!step->indentation || !step->target || !step->approach || !step->matrix)
         return false;
+    if (scene->frictions) {
+        step->before = arena_take(arena, 2 * n, sizeof *step->before);
+        if (!step->before)
+            return false;
+        step->change = step->before + n;
+    }
     step->force = step->indentation + n;
     step->stiffness = step->force + n;
     step->taken = step->target + n;
@@ -62,7 +66,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_indentation = step->end_force + n;
     return coupling_create(&step->coupling, scene, arena) &&
            midpoint_create(&step->midpoint, scene, arena) &&
-           friction_step_create(&step->friction, scene, friction_cells(accuracy), arena);
+           friction_step_create(&step->friction, scene, accuracy, arena);
 }
 
 /* Approaches at the nodes and the end if no force acted on this step. */
@@ -88,7 +92,6 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
     midpoint_take(&step->midpoint, scene, motion, step->force);
-    friction_step_take(&step->friction);
 }
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
@@ -297,7 +300,7 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
 
 /* Solves the contacts at the step's end for the approaches, from the values there are, as exactly
  * as the nodes. */
-static bool find_end(struct contact_step *step, const struct scene *scene)
+static inline bool find_end(struct contact_step *step, const struct scene *scene)
 {
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
@@ -332,7 +335,7 @@ static enum contact_step_end solve_together(struct contact_step *step,
 }
 
 /* Forces and indentations of the normals at the nodes. */
-static enum contact_step_end solve_normals(struct contact_step *step,
+static inline enum contact_step_end solve_normals(struct contact_step *step,
                                            const struct node_problem *problem,
                                            const struct contact_start *start)
 {

@@ -19,7 +19,7 @@ static void lagrange(const double *place, size_t count, double s, double *value)
 /* The start, the nodes and the end. */
 static const size_t INNER = NODES + 1, ALL = NODES + 2;
 
-static void set_polynomials(struct friction_step *step)
+static void set_polynomials(struct friction_points *points)
 {
     double place[NODES + 2] = {0.0};
     for (int i = 0; i < NODES; i++)
@@ -29,31 +29,34 @@ static void set_polynomials(struct friction_step *step)
         double share = (p + 1.0) / FRICTION_PARTS;
         for (int i = 0; i < NODES; i++)
             lagrange(place, INNER, place[i] + share * (place[i + 1] - place[i]),
-                     step->to_node[i][p]);
-        lagrange(place, ALL, place[NODES] + share * (1.0 - place[NODES]), step->to_end[p]);
+                     points->to_node[i][p]);
+        lagrange(place, ALL, place[NODES] + share * (1.0 - place[NODES]), points->to_end[p]);
     }
 }
 
-/* The steps' own error goes with their accuracy, too. */
+/* The error of a sphere's tangential speed after the impact, over the coefficient's speed, is
+ * 0.3/cells^2; the steps' own error goes with their accuracy, too. */
 static const double CELLS = 4.0;
 enum { FEWEST_CELLS = 16, MOST_CELLS = 256 };
 
-size_t friction_cells(double accuracy)
+static size_t cells_for(double accuracy)
 {
     double cells = CELLS * pow(accuracy, -0.25);
     return cells < FEWEST_CELLS ? FEWEST_CELLS : cells < MOST_CELLS ? (size_t)cells : MOST_CELLS;
 }
 
-bool friction_step_create(struct friction_step *step, const struct scene *scene, size_t cells,
+bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
                           struct arena *arena)
 {
     size_t n = scene->frictions;
-    *step = (struct friction_step){.count = n};
+    step->count = n;
     if (n == 0)
         return true;
+    size_t cells = cells_for(accuracy);
     step->now = arena_take(arena, 3 * n, sizeof *step->now);
     step->stuck = arena_take(arena, n, sizeof *step->stuck);
-    if (!step->now || !step->stuck)
+    step->points = arena_take(arena, 1, sizeof *step->points);
+    if (!step->now || !step->stuck || !step->points)
         return false;
     step->along = step->now + n;
     step->after = step->along + n;
@@ -64,7 +67,7 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
             !friction_second(&step->after[i], &step->now[i], arena))
             return false;
     }
-    set_polynomials(step);
+    set_polynomials(step->points);
     return true;
 }
 
@@ -107,7 +110,7 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
     friction_copy(along, &step->now[i]);
     for (int node = 0; node < NODES; node++) {
         for (int p = 0; p < FRICTION_PARTS; p++) {
-            at_point(way, step->to_node[node][p], false, value);
+            at_point(way, step->points->to_node[node][p], false, value);
             friction_walk(along, value[0], value + 1, sum);
         }
         double share = solved_share(along, normal[node]);
@@ -126,7 +129,7 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
     double value[3];
     friction_copy(after, &step->along[i]);
     for (int p = 0; p < FRICTION_PARTS; p++) {
-        at_point(way, step->to_end[p], true, value);
+        at_point(way, step->points->to_end[p], true, value);
         friction_walk(after, value[0], value + 1, force);
     }
     double share = solved_share(after, normal);

@@ -21,8 +21,12 @@ struct friction_step {
     struct friction *along; /* [count]: on the step under way, up to its last node */
     struct friction *after; /* [count]: at its end */
     double (*stuck)[NODES]; /* [count]: stiffness of the cells that stick at the nodes, N/m */
-    /* Lagrange's polynomials at the points of the ways to the nodes, through the start and the
-     * nodes; on the way from the last node to the end through the end as well */
+    struct friction_points *points;
+};
+
+/* Lagrange's polynomials at the points of the ways to the nodes, through the start and the nodes;
+ * on the way from the last node to the end through the end as well. */
+struct friction_points {
     double to_node[NODES][FRICTION_PARTS][NODES + 1];
     double to_end[FRICTION_PARTS][NODES + 2];
 };
@@ -35,12 +39,9 @@ struct friction_way {
     double end[3];
 };
 
-/* Cells of a contact for a relative accuracy of the forces. The error of a sphere's tangential
- * speed after the impact, over the coefficient's speed, is 0.3/cells^2. */
-size_t friction_cells(double accuracy);
-
-/* Memory for a scene from the arena; `cells` a contact. False: out of memory. */
-bool friction_step_create(struct friction_step *step, const struct scene *scene, size_t cells,
+/* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out
+ * of memory. */
+bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
                           struct arena *arena);
 
 /* A contact phase begins: the cells of all contacts, open, by their laws and the largest

@@ -19,8 +19,9 @@ bool march_create(struct march *march, struct arena *arena)
     motion_start(&march->outcome->motion, scene);
     march->closed = arena_take(arena, scene->contacts, sizeof *march->closed);
     march->indentation = arena_take(arena, scene->contacts, sizeof *march->indentation);
-    march->tangential = arena_take(arena, 2 * scene->frictions + 1, sizeof *march->tangential);
-    if (!march->closed || !march->indentation || !march->tangential ||
+    if (scene->frictions)
+        march->tangential = arena_take(arena, 2 * scene->frictions, sizeof *march->tangential);
+    if (!march->closed || !march->indentation || (scene->frictions && !march->tangential) ||
         !flight_create(&march->flight, scene, arena))
         return false;
     march->cost = march->flight.cost = step_cost(scene);
@@ -41,13 +42,15 @@ void march_open(struct march *march, size_t contact, double time, double gap_rat
 {
     march->closed[contact] = true;
     track_open(&march->outcome->tracks[contact], time, gap_rate);
-    find_slip(march, contact, march->outcome->tracks[contact].open.slip_before);
+    if (march->scene.frictions)
+        find_slip(march, contact, march->outcome->tracks[contact].open.slip_before);
 }
 
 void march_close(struct march *march, size_t contact, double time, double gap_rate)
 {
     march->closed[contact] = false;
-    find_slip(march, contact, march->outcome->tracks[contact].open.slip_after);
+    if (march->scene.frictions)
+        find_slip(march, contact, march->outcome->tracks[contact].open.slip_after);
     track_close(&march->outcome->tracks[contact], &march->scene.laws[contact], time, gap_rate);
 }
 

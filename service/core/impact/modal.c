@@ -531,7 +531,7 @@ static double group_force(const struct modal_run *run)
 }
 
 /* Reference force of a contact's roughness: its scale, or its force on the step. */
-static double force_scale(const struct modal_run *run, size_t contact, double group)
+static inline double force_scale(const struct modal_run *run, size_t contact, double group)
 {
     const double *force = run->step.force[contact];
     double own = larger(larger(force[0], force[1]), larger(force[2], force[3]));
@@ -541,33 +541,42 @@ static double force_scale(const struct modal_run *run, size_t contact, double gr
 
 /* The highest coefficient of a force's cubic. In a group a contact may close after the last node:
  * there the cubic misses the force at the end. */
-static double rough_part(const struct modal_run *run, size_t row)
+static inline double rough_part(const struct modal_run *run, size_t row, bool group)
 {
     const double *force = run->step.force[row];
     double highest = 0.0;
     for (int j = 0; j < NODES; j++)
         highest += collocation.highest[j] * force[j];
-    double off =
-        run->march.scene.contacts > 1 ? run->step.end_force[row] - collocation_last(force) : 0.0;
+    double off = group ? run->step.end_force[row] - collocation_last(force) : 0.0;
     return larger(fabs(highest), fabs(off));
 }
 
-/* Its largest share of the contacts' forces. A tangential force has bends where part of the contact
- * begins or ends to slide: it counts against its limit, as far as its error counts. */
-static double step_roughness(const struct modal_run *run)
+/* Of the tangential forces, which bend where part of a contact begins or ends to slide, over their
+ * limits, as far as their error counts. */
+static double tangents_roughness(const struct modal_run *run, double group)
 {
     const struct scene *scene = &run->march.scene;
     double worst = 0.0;
-    double group = group_force(run);
-    for (size_t c = 0; c < scene->contacts; c++)
-        worst = larger(worst, rough_part(run, c) / force_scale(run, c, group));
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct scene_friction *friction = &scene->friction[i];
         double limit = friction->coefficient * force_scale(run, friction->contact, group);
         for (size_t t = 0; t < 2; t++)
-            worst = larger(worst, TANGENTIAL_ROUGHNESS *
-                                      rough_part(run, scene_tangent(scene, i) + t) / limit);
+            worst = larger(
+                worst, rough_part(run, scene_tangent(scene, i) + t, scene->contacts > 1) / limit);
     }
+    return TANGENTIAL_ROUGHNESS * worst;
+}
+
+/* Its largest share of the contacts' forces. */
+static double step_roughness(const struct modal_run *run)
+{
+    double worst = 0.0;
+    size_t contacts = run->march.scene.contacts;
+    double group = group_force(run);
+    for (size_t c = 0; c < contacts; c++)
+        worst = larger(worst, rough_part(run, c, contacts > 1) / force_scale(run, c, group));
+    if (run->march.scene.frictions)
+        worst = larger(worst, tangents_roughness(run, group));
     return worst;
 }
 
@@ -637,7 +646,8 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
                      fmax(run->now[c].rate, after.rate));
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
-        keep_slide(run, c, h);
+        if (run->march.scene.frictions)
+            keep_slide(run, c, h);
         if (end <= 0.0)
             close_contact(run, c,
                           start +
@@ -668,6 +678,8 @@ static void accept(struct modal_run *run, int level)
     if (run->settings->log)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
+    if (run->march.scene.frictions)
+        friction_step_take(&run->step.friction);
     run->march.damping += run->step.loss;
     outcome->steps++;
     for (size_t c = 0; c < run->march.scene.contacts; c++)
@@ -866,7 +878,8 @@ static bool run_create(struct modal_run *run, struct arena *arena)
     if (!march_create(&run->march, arena))
         return false;
     run->now = arena_take(arena, scene_rows(scene), sizeof *run->now);
-    run->depth = arena_take(arena, scene->contacts, sizeof *run->depth);
+    if (scene->frictions)
+        run->depth = arena_take(arena, scene->contacts, sizeof *run->depth);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
     run->longest = arena_take(arena, scene->contacts, sizeof *run->longest);
     run->yielding = (struct yielding){.scene = scene,
@@ -876,7 +889,7 @@ static bool run_create(struct modal_run *run, struct arena *arena)
                                       .closed = run->march.closed,
                                       .scales = run->scales,
                                       .accuracy = run->settings->accuracy};
-    if (!run->now || !run->depth || !run->scales || !run->longest ||
+    if (!run->now || (scene->frictions && !run->depth) || !run->scales || !run->longest ||
         !contact_step_create(&run->step, scene, run->settings->accuracy, arena) ||
         !yielding_create(&run->yielding, arena))
         return false;

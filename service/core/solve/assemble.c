@@ -221,8 +221,8 @@ static bool add_family(const struct addition *add, double *residual)
 static bool fill_friction(struct assembly *assembly, const struct problem *problem)
 {
     size_t n = problem->friction_count;
-    struct scene_friction *friction = arena_take(problem->arena, n + 1, sizeof *friction);
-    if (!friction)
+    struct scene_friction *friction = n ? arena_take(problem->arena, n, sizeof *friction) : NULL;
+    if (n && !friction)
         return false;
     for (size_t i = 0; i < n; i++) {
         const struct contact_friction *of = &problem->friction[i];

@@ -89,6 +89,11 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
 {
     struct contact_friction friction;
     size_t count = 0;
+    bool stated = catalogue->friction_count > 0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        stated = stated || problem->request->contacts[c].friction > 0.0;
+    if (!stated)
+        return PERCUSS_OK;
     for (size_t c = 0; c < problem->contact_count; c++)
         count += find_coefficient(problem, catalogue, c, &friction);
     if (count == 0)

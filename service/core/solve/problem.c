@@ -45,7 +45,14 @@ double problem_largest_compression(const struct problem *problem)
     return largest;
 }
 
-struct row_side problem_row_side(const struct problem *problem, size_t row, int which)
+/* One side of a row. */
+struct row_side {
+    size_t body;
+    const double *point;     /* body frame, m */
+    const double *direction; /* of the force on the body per newton, body frame */
+    const struct site_load *load;
+};
+static inline struct row_side row_side(const struct problem *problem, size_t row, int which)
 {
     size_t n = problem->contact_count;
     if (row < n) {
@@ -62,7 +69,7 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
                                        size_t family)
 {
     for (int which = 0; which < 2; which++) {
-        struct row_side side = problem_row_side(problem, row, which);
+        struct row_side side = row_side(problem, row, which);
         if (side.body == body && side.load->family[family].acts)
             return &side.load->family[family];
     }
@@ -73,9 +80,9 @@ double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
 {
     double sum = 0.0;
     for (int p = 0; p < 2; p++) {
+        struct row_side a = row_side(problem, i, p);
         for (int q = 0; q < 2; q++) {
-            struct row_side a = problem_row_side(problem, i, p);
-            struct row_side b = problem_row_side(problem, j, q);
+            struct row_side b = row_side(problem, j, q);
             if (a.body == b.body)
                 sum += rigid_inverse_mass(problem->bodies[a.body], a.point, a.direction, b.point,
                                           b.direction);

@@ -130,15 +130,6 @@ static inline size_t problem_row_contact(const struct problem *problem, size_t r
     return row < n ? row : problem->friction[(row - n) / 2].contact;
 }
 
-/* One side of a row. */
-struct row_side {
-    size_t body;
-    const double *point;     /* body frame, m */
-    const double *direction; /* of the force on the body per newton, body frame */
-    const struct site_load *load;
-};
-struct row_side problem_row_side(const struct problem *problem, size_t row, int which);
-
 /* The load of a row on a body (an index) if it acts on the family, or NULL. */
 const struct family_load *problem_load(const struct problem *problem, size_t row, size_t body,
                                        size_t family);

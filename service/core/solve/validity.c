@@ -397,8 +397,10 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_size(problem, outcome, c, axes[0], warnings);
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
-    find_turn(problem, outcome, c, axes[0], warnings);
-    find_jam(problem, c, warnings);
+    if (problem->friction_count) {
+        find_turn(problem, outcome, c, axes[0], warnings);
+        find_jam(problem, c, warnings);
+    }
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
