@@ -70,6 +70,24 @@ static void draw_blows(uint64_t *r, struct any_scene *scene)
     }
 }
 
+/* A quarter of the scenes have friction, of half-spaces in the contact, with motion along it. */
+static void draw_friction(uint64_t *r, struct solve_request *request)
+{
+    if (pick(r, 4))
+        return;
+    double fastest = 0.0;
+    for (size_t b = 0; b < request->body_count; b++)
+        fastest = fmax(fastest, norm3(request->bodies[b].velocity));
+    for (size_t c = 0; c < request->contact_count; c++)
+        request->contacts[c].friction = pick(r, 4) ? log_between(r, 0.01, 3.0) : 0.0;
+    for (size_t b = 0; b < request->body_count; b++)
+        for (int i = 0; pick(r, 2) && i < 3; i++) {
+            request->bodies[b].velocity[i] += fastest * random_between(r, -0.5, 0.5);
+            request->bodies[b].angular_velocity[i] = random_between(r, -20.0, 20.0);
+        }
+    request->options.contact_model = PERCUSS_CONTACT_HERTZ;
+}
+
 void any_scene_draw(struct lab *lab, uint64_t number, struct any_scene *scene)
 {
     uint64_t r = 0xd1b54a32d192ed03u * (number + 1);
@@ -81,6 +99,7 @@ void any_scene_draw(struct lab *lab, uint64_t number, struct any_scene *scene)
         draw_gaps(&r, &scene->drawn.request);
     draw_options(&r, &scene->drawn.request.options);
     draw_blows(&r, scene);
+    draw_friction(&r, &scene->drawn.request);
 }
 
 struct solve_request any_scene_request(const struct any_scene *scene, size_t blow)
