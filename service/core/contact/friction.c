@@ -72,8 +72,13 @@ void friction_copy(struct friction *to, const struct friction *from)
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth)
 {
     size_t n = friction->count;
+    const double *kappa = friction->ratio;
+    double square = kappa[0] * kappa[2] - kappa[1] * kappa[1];
     friction->law = law;
     friction->depth = depth;
+    friction->over_ratio[0] = kappa[2] / square;
+    friction->over_ratio[1] = -kappa[1] / square;
+    friction->over_ratio[2] = kappa[0] / square;
     friction->indentation = friction->normal = friction->stuck = 0.0;
     friction->displacement[0] = friction->displacement[1] = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -138,11 +143,10 @@ static double cell_share(const struct friction *friction, size_t i, const struct
 }
 
 /* (x, y)^T kappa^-1 of another vector. */
-static inline double over_ratio(const double ratio[3], double x, double y, const double other[2])
+static inline double over_ratio(const double over[3], double x, double y, const double other[2])
 {
-    return (x * (ratio[2] * other[0] - ratio[1] * other[1]) +
-            y * (ratio[0] * other[1] - ratio[1] * other[0])) /
-           (ratio[0] * ratio[2] - ratio[1] * ratio[1]);
+    return x * (over[0] * other[0] + over[1] * other[1]) +
+           y * (over[1] * other[0] + over[2] * other[1]);
 }
 
 /* A walk of the cells: the way of kappa times the displacement over mu, and sums; the loss over
@@ -273,7 +277,8 @@ static inline void cell_slip(struct friction *friction, size_t i, double from,
     double after = end->after == end->before ? before : end->after > 0.0 ? 1.0 / end->after : 0.0;
     double slid[2] = {moved[0] + before * *x - after * next[0],
                       moved[1] + before * *y - after * next[1]};
-    double lost = over_ratio(ratio, slip.at[0] + next[0], slip.at[1] + next[1], slid);
+    double lost =
+        over_ratio(friction->over_ratio, slip.at[0] + next[0], slip.at[1] + next[1], slid);
     walk->lost += larger(0.5 * lost, 0.0);
     for (int j = 0; j < 2; j++)
         walk->turning[j] += end->stiffness * left * (1.0 - along[j] * along[j]);
@@ -304,7 +309,7 @@ static inline void cell_slip_straight(struct friction *friction, size_t i,
                                       struct walk *walk)
 {
     double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
-    const double *ratio = friction->ratio, *moved = walk->moved;
+    const double *moved = walk->moved;
     double inverse = 1.0 / sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
     double along[2] = {trial[0] * inverse, trial[1] * inverse};
     double before = *x * along[0] + *y * along[1];
@@ -313,7 +318,7 @@ static inline void cell_slip_straight(struct friction *friction, size_t i,
     slip -= end->after > 0.0 ? end->share / end->after : 0.0;
     if (slip > 0.0)
         walk->lost += 0.5 * (end->share + larger(before, 0.0)) * slip *
-                      over_ratio(ratio, along[0], along[1], along);
+                      over_ratio(friction->over_ratio, along[0], along[1], along);
     double across = end->stiffness * end->share * inverse;
     walk->turning[0] += across * along[1] * along[1];
     walk->turning[1] += across * along[0] * along[0];
@@ -351,7 +356,7 @@ static void cell_open(struct friction *friction, size_t i, double before, double
 {
     double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
     double left = after / before;
-    walk->lost += 0.5 * over_ratio(friction->ratio, *x, *y, (const double[2]){*x, *y}) *
+    walk->lost += 0.5 * over_ratio(friction->over_ratio, *x, *y, (const double[2]){*x, *y}) *
                   (1.0 - left) / before;
     *x *= left;
     *y *= left;
@@ -444,7 +449,7 @@ double friction_stored(const struct friction *friction)
         const double force[2] = {friction->traction[0][i], friction->traction[1][i]};
         cell_share(friction, i, &at, &stiffness);
         if (stiffness > 0.0)
-            sum += over_ratio(friction->ratio, force[0], force[1], force) / (2.0 * stiffness);
+            sum += over_ratio(friction->over_ratio, force[0], force[1], force) / (2.0 * stiffness);
     }
     return sum * friction->coefficient * friction->coefficient;
 }

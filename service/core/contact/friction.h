@@ -26,6 +26,7 @@ struct friction {
     const struct contact_law *law; /* borrowed */
     double coefficient;            /* mu > 0 */
     double ratio[3];               /* kappa: tangential over normal stiffness, xx, xy, yy */
+    double over_ratio[3];          /* its inverse, since the touch */
     size_t count;                  /* of cells */
     /* the cells, [count]: y_i (m), the law's force and slope there (N, N/m), and share and slope of
      * a cell that is closed throughout: share = base + stiffness d */

@@ -85,6 +85,7 @@ static void against_the_slip(void **state)
             struct friction friction = unit_friction(&law, 64, &arena);
             double about = degrees * M_PI / 180.0, force[2];
             memcpy(friction.ratio, ratios[r], sizeof friction.ratio);
+            friction_touch(&friction, &law, 1.0);
             friction_walk(&friction, 1.0, (const double[2]){0.0, 0.3}, force);
             for (int i = 1; i <= 200; i++)
                 friction_walk(&friction, 1.0,
@@ -111,6 +112,7 @@ static void around_a_circle(void **state)
             struct friction friction = unit_friction(&law, 64, &arena);
             int steps = fine ? 96 : 12;
             memcpy(friction.ratio, ratios[r], sizeof friction.ratio);
+            friction_touch(&friction, &law, 1.0);
             friction_walk(&friction, 1.0, (const double[2]){0.0, 0.0}, end[fine]);
             friction_walk(&friction, 1.0, (const double[2]){4.0, 0.0}, end[fine]);
             for (int i = 1; i <= steps; i++) {
