@@ -1,0 +1,83 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# Oblique impacts with friction: the daemon's answer is that of the same process, a coefficient of the catalogue is one of
+# the request, and bodies and methods without tangential forces are refused by name.
+. "$(dirname "$0")/../support/lib.sh"
+
+cat >"$work/catalogue.yaml" <<'YAML'
+materials:
+  steel:     {young: 210 GPa, poisson: 0.30, density: 7800, yield: none}
+  soft:      {young: 210 GPa, poisson: 0.30, density: 7800, yield: 200 MPa}
+  aluminium: {young: 70 GPa, poisson: 0.33, density: 2700, yield: none}
+bodies:
+  ball:  {shape: sphere, material: steel, radius: 15 mm}
+  soft:  {shape: sphere, material: soft, radius: 15 mm}
+  beam:  {shape: beam, material: aluminium, radius: 10 mm, length: 1, ends: free}
+  block: {shape: block, material: steel, size: [100 mm, 100 mm, 20 mm]}
+YAML
+{
+    cat "$work/catalogue.yaml"
+    echo "friction:"
+    echo "- {between: [aluminium, steel], coefficient: 0.3}"
+} >"$work/listed.yaml"
+start_daemon
+
+# hit B ARGUMENT...: the daemon is asked; within C ARGUMENT...: the same in this process, of the catalogue C
+hit() {
+    struck=$1
+    shift
+    percuss query --a ball --b "$struck" --speed 0.3 --angle 30 "$@"
+}
+within() {
+    catalogue=$1
+    shift
+    "$bin/percuss" query --local --catalogue "$work/$catalogue.yaml" --a ball --b beam --speed 0.3 --angle 30 "$@"
+}
+
+# answer: without the server's name; bare: nor what tells catalogues and requests apart
+answer() {
+    numbers "$out" | sed '/^  "server":/d'
+}
+bare() {
+    answer | sed -e '/^  "catalogue_revision":/d' -e '/^ *"state":/d' -e '/friction is not modelled/d'
+}
+
+say "over DDS and in process: the same bits"
+expect 0 hit beam --friction 0.3 --json
+answer >"$work/asked"
+bare >"$work/bare"
+[ "$(field friction_state)" = reversed ] || fail "the first blow does not throw the surface back"
+grep -q '"tangential_restitution": 0\.04' "$out" || fail "the tangential restitution"
+awk '/^  "energy"/ { inside = 1 } inside && /"friction":/ { found = $2 + 0 > 2.5e-4 && $2 + 0 < 3.5e-4 }
+    END { exit !found }' "$out" || fail "what was lost to friction"
+expect 0 within catalogue --friction 0.3 --json
+answer | cmp - "$work/asked" || fail "in process the answer is another one"
+
+say "a pair of the catalogue answers as --friction"
+expect 0 within listed --json
+bare | cmp - "$work/bare" || fail "the catalogue's coefficient gives another answer"
+expect 0 within listed --friction 0.1 --json
+! bare | cmp -s - "$work/bare" || fail "the request's coefficient does not go before the catalogue's"
+
+say "without friction it is as if no coefficient were stated"
+expect 0 hit beam --json
+bare >"$work/never"
+expect 0 hit beam --friction 0.3 --friction-law none --json
+bare | cmp - "$work/never" || fail "friction-law none moves the answer"
+[ "$(field friction_state)" = none ] || fail "a state of friction without friction"
+
+say "what has no tangential forces is refused by name"
+expect 5 hit block --friction 0.3
+says "contacts[0].friction: block: its flexibility along the surface is not known"
+expect 0 hit block --friction 0.3 --friction-law none
+expect 5 hit soft --friction 0.3
+says "contacts[0].friction: the contact yields, for which friction is not computed yet"
+expect 5 hit beam --friction 0.3 --method cvode
+says "contacts[0].friction: the method cvode has no friction"
+expect 5 hit beam --friction 0.3 --contact-model complete-fe
+says "contacts[0].friction: finite elements have no friction"
+expect 2 hit beam --friction 11
+says "a coefficient of 0 to 10 is needed"
+expect 0 hit beam --friction 0.3
+stop_daemon
