@@ -2,7 +2,7 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The manual keeps its size: at most 15 pages in docs/, each of at most 2,600 words, ten minutes of reading. Measurements
+# The manual keeps its size: at most 16 pages in docs/, each of at most 2,600 words, ten minutes of reading. Measurements
 # are in docs/lab, generated tables and other pages to look things up in docs/reference.
 # usage: manual.sh SOURCE
 set -eu
@@ -17,7 +17,7 @@ too_long() {
         [ "$words" -le 2600 ] || echo "${page##*/}: $words words: at most 2600 are allowed"
     done
     pages=$(find "$1" -maxdepth 1 -name '*.md' | wc -l)
-    [ "$pages" -le 15 ] || echo "$pages pages: at most 15 are allowed"
+    [ "$pages" -le 16 ] || echo "$pages pages: at most 16 are allowed"
 }
 
 too_long "$source_dir/docs" >"$work/found"
@@ -33,7 +33,7 @@ for number in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
     yes word | head -n 2601 >"$work/docs/made-up-$number.md"
 done
 too_long "$work/docs" >"$work/found"
-grep -q '^made-up-1.md: 2601 words' "$work/found" && grep -q 'pages: at most 15' "$work/found" || {
+grep -q '^made-up-1.md: 2601 words' "$work/found" && grep -q 'pages: at most 16' "$work/found" || {
     echo "a manual that is too long is not noticed" >&2
     exit 1
 }

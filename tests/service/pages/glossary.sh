@@ -12,6 +12,8 @@ expect 0 ask --b al-rod-1 --speed 0.3
 cp "$out" "$work/answers"
 expect 0 ask --b al-beam --speed 0.276
 cat "$out" >>"$work/answers"
+expect 0 ask --b al-beam --speed 0.3 --angle 30 --friction 0.3
+cat "$out" >>"$work/answers"
 
 say "what the lines of an answer begin with"
 sed -n 's/^  \([a-z][a-z-]*\( [a-z]*\)*\)  .*/\1/p' "$work/answers" | sort -u >"$work/labels"
