@@ -128,8 +128,12 @@ static void print_friction(const struct percuss_contact_result *contact)
     putchar('\n');
     /* the restitution by impulses may be above 1 where friction turns a body */
     if (!isnan(contact->restitution_kinematic))
-        printf("  kinematic    %.6g is the restitution by the rates of the gap\n",
+        printf("  kinematic    %.6g is the restitution by the rates of the gap",
                contact->restitution_kinematic);
+    if (!isnan(contact->restitution_energetic))
+        printf(", %.6g by the work of the force", contact->restitution_energetic);
+    if (!isnan(contact->restitution_kinematic) || !isnan(contact->restitution_energetic))
+        putchar('\n');
 }
 
 /* Of a longer list the negligible ones are left out. */

@@ -40,7 +40,7 @@ answer() {
     numbers "$out" | sed '/^  "server":/d'
 }
 bare() {
-    answer | sed -e '/^  "catalogue_revision":/d' -e '/^ *"state":/d' -e '/friction is not modelled/d'
+    answer | sed -e '/^  "catalogue_revision":/d' -e '/^ *"state":/d' -e '/without a coefficient of friction/d'
 }
 
 say "over DDS and in process: the same bits"
