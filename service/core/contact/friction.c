@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/extremes.h"
+#include "base/vector_clones.h"
 #include "numeric/special.h"
 
 void friction_ratios(const struct hertz_contact *hertz, const struct material *a,
@@ -29,6 +30,10 @@ void friction_ratios(const struct hertz_contact *hertz, const struct material *a
     }
 }
 
+/* Angle, rad, that a force turns by on its way, or its distance from an axis of kappa, below which
+ * the turn, of second order in it, is rounding. */
+static const double STRAIGHT = 1e-9;
+
 static bool take_history(struct friction *friction, struct arena *arena)
 {
     size_t n = friction->count;
@@ -43,13 +48,14 @@ bool friction_create(struct friction *friction, double coefficient, const double
 {
     *friction = (struct friction){.coefficient = coefficient, .count = count};
     memcpy(friction->ratio, ratio, sizeof friction->ratio);
-    friction->edge = arena_take(arena, 5 * count, sizeof *friction->edge);
+    friction->edge = arena_take(arena, 6 * count, sizeof *friction->edge);
     if (!friction->edge || !take_history(friction, arena))
         return false;
     friction->force = friction->edge + count;
     friction->slope = friction->edge + 2 * count;
     friction->base = friction->edge + 3 * count;
     friction->stiffness = friction->edge + 4 * count;
+    friction->compliance = friction->edge + 5 * count;
     return true;
 }
 
@@ -76,6 +82,7 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     double square = kappa[0] * kappa[2] - kappa[1] * kappa[1];
     friction->law = law;
     friction->depth = depth;
+    friction->line = fabs(kappa[1]) <= STRAIGHT * kappa[0];
     friction->over_ratio[0] = kappa[2] / square;
     friction->over_ratio[1] = -kappa[1] / square;
     friction->over_ratio[2] = kappa[0] / square;
@@ -89,6 +96,7 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     for (size_t i = 0; i + 1 < n; i++) {
         double width = friction->edge[i + 1] - friction->edge[i];
         friction->stiffness[i] = friction->slope[i + 1] - friction->slope[i];
+        friction->compliance[i] = 1.0 / friction->stiffness[i];
         friction->base[i] = friction->force[i + 1] - friction->force[i] -
                             width * friction->slope[i] -
                             friction->edge[i + 1] * friction->stiffness[i];
@@ -286,10 +294,6 @@ static inline void cell_slip(struct friction *friction, size_t i, double from,
     *y = next[1];
 }
 
-/* Angle, rad, that a force turns by on its way, or its distance from an axis of kappa, below which
- * the turn, of second order in it, is rounding. */
-static const double STRAIGHT = 1e-9;
-
 /* Whether a trial force goes on along the force before, and the slip along it: always in a plane. */
 static inline bool is_straight(const double ratio[3], const double trial[2], double x, double y,
                                double share)
@@ -366,6 +370,64 @@ static void cell_open(struct friction *friction, size_t i, double before, double
  * shares over it would lose digits. */
 static const double SHORT = 1e-6;
 
+/* Sums in the same order for any vectors. */
+enum { SUMS = 4 };
+
+static double sum_of(const double *values, size_t count)
+{
+    double sum[SUMS] = {0.0};
+    size_t i = 0;
+    for (; i + SUMS <= count; i += SUMS)
+        for (size_t k = 0; k < SUMS; k++)
+            sum[k] += values[i + k];
+    for (; i < count; i++)
+        sum[0] += values[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Cells at a time of walk_line. */
+enum { STRIP = 64 };
+
+/* Cells that are closed throughout, before and after, of a history along one line: as cell_walk. */
+VECTOR_CLONES static void walk_line(struct friction *friction, size_t count, double indentation,
+                                    struct walk *walk)
+{
+    double moved = walk->moved[0];
+    for (size_t first = 0; first < count; first += STRIP) {
+        double stuck[STRIP], lost[STRIP];
+        size_t n = count - first < STRIP ? count - first : STRIP;
+        const double *restrict base = friction->base + first;
+        const double *restrict stiffness = friction->stiffness + first;
+        const double *restrict compliance = friction->compliance + first;
+        double *restrict share = friction->share + first;
+        double *restrict x = friction->traction[0] + first;
+        for (size_t i = 0; i < n; i++) {
+            double limit = base[i] + stiffness[i] * indentation;
+            double trial = x[i] + stiffness[i] * moved;
+            double next = trial < limit ? trial : limit;
+            next = next > -limit ? next : -limit;
+            double slip = trial - next; /* times the stiffness */
+            double before = x[i] * slip;
+            before = before > 0.0 ? before : 0.0;
+            lost[i] = (next * slip + before) * compliance[i];
+            stuck[i] = slip == 0.0 ? stiffness[i] : 0.0;
+            share[i] = limit;
+            x[i] = next;
+        }
+        walk->force[0] += sum_of(x, n);
+        walk->stuck += sum_of(stuck, n);
+        walk->lost += 0.5 * friction->over_ratio[0] * sum_of(lost, n);
+    }
+}
+
+/* A way leaves the line by an elastic force across it that is more than rounding of the limit. */
+static bool stays_on_line(const struct friction *friction, const struct normal *to,
+                          const struct walk *walk)
+{
+    return friction->line &&
+           fabs(walk->moved[1]) * to->slope <= STRAIGHT * larger(to->force, friction->normal);
+}
+
 /* From one indentation >= 0 to another. */
 static void walk_cells(struct friction *friction, const struct normal *from,
                        const struct normal *to, struct walk *walk)
@@ -375,7 +437,10 @@ static void walk_cells(struct friction *friction, const struct normal *from,
     size_t first = to->last < from->last ? to->last : from->last;
     size_t last = to->last > from->last ? to->last : from->last;
     /* closed throughout, before and after */
-    for (size_t i = 0; i < first; i++) {
+    friction->line = stays_on_line(friction, to, walk);
+    if (friction->line)
+        walk_line(friction, first, to->indentation, walk);
+    for (size_t i = friction->line ? first : 0; i < first; i++) {
         double stiffness = friction->stiffness[i];
         const struct cell_end end = {friction->base[i] + stiffness * to->indentation, stiffness,
                                      stiffness, stiffness};

@@ -29,12 +29,13 @@ struct friction {
     double over_ratio[3];          /* its inverse, since the touch */
     size_t count;                  /* of cells */
     /* the cells, [count]: y_i (m), the law's force and slope there (N, N/m), and share and slope of
-     * a cell that is closed throughout: share = base + stiffness d */
-    double *edge, *force, *slope, *base, *stiffness;
+     * a cell that is closed throughout: share = base + stiffness d; 1/stiffness */
+    double *edge, *force, *slope, *base, *stiffness, *compliance;
     double depth; /* m, of the cells */
     /* the history: at the indentation (m; <= 0: open), the share (N) and the tangential force over
      * mu (N) of each cell by direction; displacement since the touch, m */
     double *share, *traction[2];
+    bool line; /* all along the first direction */
     double indentation;
     double displacement[2];
     double normal;     /* force of the law there, N */

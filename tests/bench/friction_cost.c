@@ -1,0 +1,70 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What friction costs: warm solves at the default tolerance with and without it, in turns, of two
+ * balls, and of a ball on the beam's middle. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "scenes.h"
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* The smallest of some rounds' means, s; negative: a solve failed. */
+static double cost(struct solve_workspace *workspace, const struct solve_context *context,
+                   const struct solve_request *request, int times)
+{
+    static struct solve_result result;
+    double best = 1.0;
+    for (int round = 0; round < 5; round++) {
+        double start = now();
+        for (int i = 0; i < times; i++)
+            if (solve(workspace, context, request, &result) != PERCUSS_OK)
+                return -1.0;
+        double mean = (now() - start) / times;
+        best = mean < best ? mean : best;
+    }
+    return best;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const scenes[] = {"spheres", "beam"};
+    static const double coefficients[] = {0.1, 0.3};
+    int times = argc > 1 && !strcmp(argv[1], "--quick") ? 2 : 200;
+    struct bench_catalogue catalogue;
+    struct solve_workspace *workspace = solve_workspace_create();
+    struct solve_context context = {.catalogue = &catalogue.set};
+    if (!workspace || !bench_catalogue_make(&catalogue, 0))
+        return EXIT_FAILURE;
+    puts("| scene, mu | without, us | with, us | ratio |\n|---|---|---|---|");
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++)
+        for (size_t m = 0; m < sizeof coefficients / sizeof *coefficients; m++) {
+            const struct bench_scene *scene = bench_scene_find(scenes[s]);
+            if (!scene)
+                return EXIT_FAILURE;
+            struct solve_request request = bench_request(scene, 1e-3);
+            /* at 30 degrees, along the first of the world's axes across the normal */
+            int along = scene->normal[0] * scene->normal[0] < 0.5 ? 0 : 1;
+            request.bodies[0].velocity[along] += 0.577 * scene->speed;
+            request.contacts[0].tangent[along] = 1.0;
+            request.contacts[0].friction = coefficients[m];
+            struct solve_request bare = request;
+            bare.contacts[0].friction = 0.0;
+            double without = cost(workspace, &context, &bare, times);
+            double with = cost(workspace, &context, &request, times);
+            if (without < 0.0 || with < 0.0)
+                return EXIT_FAILURE;
+            printf("| %s, %g | %.1f | %.1f | %.1f |\n", scene->title, coefficients[m],
+                   1e6 * without, 1e6 * with, with / without);
+        }
+    solve_workspace_free(workspace);
+    return EXIT_SUCCESS;
+}
