@@ -43,10 +43,15 @@ static bool take_history(struct friction *friction, struct arena *arena)
     return friction->share != NULL;
 }
 
+/* Cells over those up to the depth: sixteen depths. Contacts that are wedged by friction, backed by
+ * a group or pressed go several times as deep as their own bodies' speed lets expect. */
+enum { DEEPER = 4 };
+
 bool friction_create(struct friction *friction, double coefficient, const double ratio[3],
-                     size_t count, struct arena *arena)
+                     size_t parts, struct arena *arena)
 {
-    *friction = (struct friction){.coefficient = coefficient, .count = count};
+    size_t count = DEEPER * parts;
+    *friction = (struct friction){.coefficient = coefficient, .parts = parts, .count = count};
     memcpy(friction->ratio, ratio, sizeof friction->ratio);
     friction->edge = arena_take(arena, 6 * count, sizeof *friction->edge);
     if (!friction->edge || !take_history(friction, arena))
@@ -67,9 +72,12 @@ bool friction_second(struct friction *second, const struct friction *friction, s
 
 void friction_copy(struct friction *to, const struct friction *from)
 {
+    size_t cells = to->reached > from->reached ? to->reached : from->reached;
     double *share = to->share;
     double *traction[2] = {to->traction[0], to->traction[1]};
-    memcpy(share, from->share, 3 * from->count * sizeof *share);
+    memcpy(share, from->share, cells * sizeof *share);
+    memcpy(traction[0], from->traction[0], cells * sizeof *share);
+    memcpy(traction[1], from->traction[1], cells * sizeof *share);
     *to = *from;
     to->share = share;
     memcpy(to->traction, traction, sizeof traction);
@@ -89,7 +97,7 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     friction->indentation = friction->normal = friction->stuck = 0.0;
     friction->displacement[0] = friction->displacement[1] = 0.0;
     for (size_t i = 0; i < n; i++) {
-        double part = (double)i / (double)n;
+        double part = (double)i / (double)friction->parts;
         friction->edge[i] = depth * part * part;
         friction->force[i] = contact_law_force(law, friction->edge[i], &friction->slope[i]);
     }
@@ -102,13 +110,14 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
                             friction->edge[i + 1] * friction->stiffness[i];
     }
     memset(friction->share, 0, 3 * n * sizeof *friction->share);
+    friction->reached = 0;
 }
 
 /* The cell that is closed in part at an indentation > 0, and those before it throughout. */
 static size_t last_closed(const struct friction *friction, double indentation)
 {
     size_t last = friction->count - 1;
-    double place = (double)friction->count * sqrt(indentation / friction->depth);
+    double place = (double)friction->parts * sqrt(indentation / friction->depth);
     size_t i = place < (double)last ? (size_t)place : last;
     while (i > 0 && friction->edge[i] >= indentation)
         i--;
@@ -294,7 +303,8 @@ static inline void cell_slip(struct friction *friction, size_t i, double from,
     *y = next[1];
 }
 
-/* Whether a trial force goes on along the force before, and the slip along it: always in a plane. */
+/* Whether a trial force goes on along the force before, and the slip along it: always in a plane.
+ */
 static inline bool is_straight(const double ratio[3], const double trial[2], double x, double y,
                                double share)
 {
@@ -436,6 +446,8 @@ static void walk_cells(struct friction *friction, const struct normal *from,
     bool is_short = !(fabs(way) > SHORT * larger(to->indentation, from->indentation));
     size_t first = to->last < from->last ? to->last : from->last;
     size_t last = to->last > from->last ? to->last : from->last;
+    if (last >= friction->reached)
+        friction->reached = last + 1;
     /* closed throughout, before and after */
     friction->line = stays_on_line(friction, to, walk);
     if (friction->line)
@@ -499,7 +511,7 @@ void friction_force(const struct friction *friction, double force[2])
 {
     for (int j = 0; j < 2; j++) {
         double sum = 0.0;
-        for (size_t i = 0; i < friction->count; i++)
+        for (size_t i = 0; i < friction->reached; i++)
             sum += friction->traction[j][i];
         force[j] = friction->coefficient * sum;
     }

@@ -27,7 +27,8 @@ struct friction {
     double coefficient;            /* mu > 0 */
     double ratio[3];               /* kappa: tangential over normal stiffness, xx, xy, yy */
     double over_ratio[3];          /* its inverse, since the touch */
-    size_t count;                  /* of cells */
+    size_t parts, count;           /* cells up to the depth, and all: deeper ones are as fine */
+    size_t reached;                /* of them, since the touch */
     /* the cells, [count]: y_i (m), the law's force and slope there (N, N/m), and share and slope of
      * a cell that is closed throughout: share = base + stiffness d; 1/stiffness */
     double *edge, *force, *slope, *base, *stiffness, *compliance;
@@ -55,12 +56,13 @@ struct friction {
 void friction_ratios(const struct hertz_contact *hertz, const struct material *a,
                      const struct material *b, double ratio[2]);
 
-/* A contact without friction's history, with `count` > 0 cells from the arena. False: no memory. */
+/* A contact without friction's history, with `parts` > 0 cells up to its depth, from the arena. False:
+ * no memory. */
 bool friction_create(struct friction *friction, double coefficient, const double ratio[3],
-                     size_t count, struct arena *arena);
+                     size_t parts, struct arena *arena);
 
-/* The contact touches: its cells, all open, divide the indentations up to `depth` (m), the expected
- * largest one, by a law that stays until the contact opens. */
+/* The contact touches: its cells, all open, divide the indentations by `depth` (m), about the largest
+ * one (sixteen times as much is as fine), and a law that stays until the contact opens. */
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth);
 
 /* A second history of the same cells, at their first touch: for ways that are tried. False: no

@@ -424,9 +424,6 @@ static const double SHARE_TO_OPENING = 0.85;
  * 1e-5; without it by twice and twenty times as much. */
 static const double TANGENTIAL_ROUGHNESS = 10.0;
 
-/* Power of the energy with which the indentation of a sphere grows. */
-static const double DEPTH_BY_ENERGY = 0.4;
-
 /* A contact that opens without speed in a group has no scale of its own: its roughness counts
  * against this share of the group's force. */
 static const double SHARE_OF_GROUP = 0.01;
@@ -691,35 +688,13 @@ static void accept(struct modal_run *run, int level)
     }
 }
 
-/* How much deeper than alone a contact goes whose tangents stick and whose slip wedges it: by the
- * bodies' coupling w of its normal and its tangents the approach gets part of the slip, and more
- * mass. `rate`: of approach. */
-static double wedging(const struct modal_run *run, size_t friction, double rate)
+/* Indentation under twice the load of an acceleration that presses: as far as it swings. */
+static double pressed(const struct scene *scene, size_t contact)
 {
-    const struct scene *scene = &run->march.scene;
-    size_t n = scene_rows(scene), row = scene_tangent(scene, friction);
-    size_t contact = scene->friction[friction].contact;
-    const double *own = scene->w + contact * n, *first = scene->w + row * n, *second = first + n;
-    double square = first[row] * second[row + 1] - first[row + 1] * first[row + 1];
-    if (!(square > 0.0 && rate > 0.0))
-        return 1.0;
-    double x = (second[row + 1] * own[row] - first[row + 1] * own[row + 1]) / square;
-    double y = (first[row] * own[row + 1] - first[row + 1] * own[row]) / square;
-    double faster = 1.0 + fabs(x * run->now[row].rate + y * run->now[row + 1].rate) / rate;
-    double heavier = own[contact] / (own[contact] - x * own[row] - y * own[row + 1]);
-    return heavier > 1.0 ? pow(faster * faster * heavier, DEPTH_BY_ENERGY) : 1.0;
-}
-
-/* The indentation that a contact is expected to reach, which an acceleration that closes it makes
- * deeper: its work over the way is kinetic energy too. */
-static double expected_depth(const struct scene *scene, size_t contact, double rate)
-{
-    double closing = larger(-scene->gap_acceleration[contact], 0.0);
-    double depth = impact_scale_of(scene, contact, rate).indentation;
-    for (int round = 0; closing > 0.0 && round < 8; round++)
-        depth =
-            impact_scale_of(scene, contact, sqrt(rate * rate + 2.0 * closing * depth)).indentation;
-    return depth;
+    const struct contact_law *law = &scene->laws[contact];
+    double load =
+        -2.0 * scene->gap_acceleration[contact] / scene->w[contact * (scene_rows(scene) + 1)];
+    return load > 0.0 ? law->operations->indentation(law, load) : 0.0;
 }
 
 /* The tangents at the beginning of a phase: contacts of a group may close at any instant of it. */
@@ -737,9 +712,7 @@ static void begin_friction(struct modal_run *run)
         memset(run->step.force[r], 0, sizeof run->step.force[r]);
     }
     for (size_t c = 0; c < scene->contacts; c++)
-        run->depth[c] = expected_depth(scene, c, fastest);
-    for (size_t i = 0; i < scene->frictions; i++)
-        run->depth[scene->friction[i].contact] *= wedging(run, i, fastest);
+        run->depth[c] = larger(impact_scale_of(scene, c, fastest).indentation, pressed(scene, c));
     friction_step_begin(&run->step.friction, scene, run->depth);
 }
 

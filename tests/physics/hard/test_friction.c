@@ -176,6 +176,30 @@ static void many_contacts(void **state)
     lab_free(lab);
 }
 
+/* A column that falls on a wall as a whole and turns: its lowest contact bears all of it. */
+static void a_column_falls(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = paper_lab(0.01);
+    struct solve_request request = {.body_count = 7, .contact_count = 6};
+    request.bodies[6] = (struct solve_body){.id = "wall", .orientation = {1.0}};
+    for (unsigned i = 0; i < 6; i++) {
+        request.bodies[i] = (struct solve_body){.id = "ball",
+                                                .position = {0.0, 0.0, 0.165 - 0.03 * i},
+                                                .orientation = {1.0},
+                                                .velocity = {0.2, 0.1, -0.3}};
+        request.contacts[i] = (struct solve_contact){.a = i,
+                                                     .b = i + 1,
+                                                     .point = {0.0, 0.0, 0.15 - 0.03 * i},
+                                                     .normal = {0.0, 0.0, 1.0},
+                                                     .friction = 0.3};
+    }
+    rub_well(lab, &request, "a column", &result);
+    near(closure_share(&result, 0.0), 0.0, 2e-5);
+    lab_free(lab);
+}
+
 /* Bodies that press on each other, until the horizon. */
 static void pressed(void **state)
 {
@@ -205,7 +229,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(painleve), cmocka_unit_test(no_slip_and_too_much),
         cmocka_unit_test(grazes),   cmocka_unit_test(many_contacts),
-        cmocka_unit_test(pressed),
+        cmocka_unit_test(pressed),  cmocka_unit_test(a_column_falls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
