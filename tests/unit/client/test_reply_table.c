@@ -57,7 +57,7 @@ static void friction_is_told_where_it_is(void **state)
     expect("\n  friction     0.3, partly\n"
            "  tangential   (51, 52) N s +- 53\n"
            "  slip         (54, nan) m/s, after it (0, 55) m/s  (tangential restitution 56)\n"
-           "  kinematic    57 is the restitution by the rates of the gap, 58 by the work of the force\n");
+           "  kinematic    57 is the restitution by the rates of the gap\n");
     expect("indent./um  tangential/N s  slip\n");
     expect("(46, 47)  reversed  negligible\n");
     expect(", plastic 110.34 %, friction 200.00 %, stored 113.79 %");
