@@ -41,7 +41,7 @@ enum warning_kind {
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 
-enum { WARNINGS_ROOM = 32, WARNING_SIZE = 1024 };
+enum { WARNINGS_ROOM = 34, WARNING_SIZE = 1024 };
 
 struct warnings {
     size_t count;
