@@ -302,6 +302,30 @@ static void histories_have_their_bounds(void **state)
     lab_free(lab);
 }
 
+/* Tangential forces move the normals' points where the site is off the middle: the beam turns and
+ * bends by their lever arm. */
+static void with_friction(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct solve_request request = on_beam(0.25, 1e-5);
+    double r[9], axis[3] = {1.0, 0.0, 0.0}, along[3];
+    rotation_matrix(request.bodies[1].orientation, r);
+    rotate3(r, axis, along);
+    add_scaled3(0.6, along, request.bodies[0].velocity);
+    request.contacts[0].friction = 0.4;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 0.0);
+    const struct trace_contact *contact = &result.trace->contact[0];
+    size_t last = result.trace->count - 1;
+    measured_relative("gap rate after", contact->gap_rate[last],
+                      0.25 * result.contacts[0].restitution_kinematic, 1e-6);
+    assert_true(result.contacts[0].restitution_kinematic != result.contacts[0].restitution);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +335,7 @@ int main(void)
         cmocka_unit_test(a_rod_a_wall_and_a_ringing_beam),
         cmocka_unit_test(other_methods_and_masses_are_told),
         cmocka_unit_test(several_contacts_share_the_instants),
+        cmocka_unit_test(with_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -611,20 +611,26 @@ void report_fill(const struct problem *problem, const struct solution *solution,
                                    "no finite answer: the numbers of the request are out of scale");
 }
 
-/* Compliance between two contacts of one body that no mode of the scene holds. */
+/* One side of a row, of a body. */
+struct row_load {
+    size_t row;
+    const double *point, *direction;
+    const struct site_load *load;
+};
+
+/* Compliance between two rows of one body that no mode of the scene holds. */
 static double residual_of_side(const struct problem *problem, const struct assembly *assembly,
-                               const struct contact_side *i, const struct contact_side *j,
-                               size_t contact_i, size_t contact_j)
+                               size_t body, const struct row_load *i, const struct row_load *j)
 {
     double sum = 0.0;
-    const struct body *body = problem->bodies[i->body];
-    for (size_t f = 0; f < body->kind->family_count; f++)
-        sum += modal_compliance(body, f, &i->load.family[f], &j->load.family[f]);
+    const struct body *of = problem->bodies[body];
+    for (size_t f = 0; f < of->kind->family_count; f++)
+        sum += modal_compliance(of, f, &i->load->family[f], &j->load->family[f]);
     for (size_t g = 0; g < assembly->scene.groups; g++) {
         const struct scene_group *group = &assembly->groups[g];
-        const double *a = group->participation[contact_i];
-        const double *b = group->participation[contact_j];
-        if (group->body != i->body)
+        const double *a = group->participation[i->row];
+        const double *b = group->participation[j->row];
+        if (group->body != body)
             continue;
         for (size_t k = group->count; a && b && k-- > 0;)
             sum -= a[k] * b[k] / (group->set->omega[k] * group->set->omega[k]);
@@ -632,22 +638,30 @@ static double residual_of_side(const struct problem *problem, const struct assem
     return sum;
 }
 
-/* The part of the coupling of two contacts that goes through side `which` of the first. */
+/* The part of the coupling of a contact's normal with all rows that goes through side `which`. */
 static void share_of_side(const struct problem *problem, const struct assembly *assembly, size_t c,
                           int which, double *w, double *residual)
 {
     const struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
-    size_t n = problem->contact_count;
-    residual[c * n + c] = problem->compliance.sides[c][which];
-    for (size_t j = 0; j < n; j++) {
+    const struct row_load own = {c, side->site.point, side->direction, &side->load};
+    size_t n = problem->contact_count, rows = problem_rows(problem);
+    residual[c * rows + c] = problem->compliance.sides[c][which];
+    for (size_t j = 0; j < rows; j++) {
+        size_t contact = problem_row_contact(problem, j);
         for (int q = 0; q < 2; q++) {
-            const struct contact_side *other = &problem->sides[j][q];
-            if (other->body != side->body)
+            const struct contact_side *at = &problem->sides[contact][q];
+            struct row_load other = {j, at->site.point, at->direction, &at->load};
+            if (at->body != side->body)
                 continue;
-            w[c * n + j] += rigid_inverse_mass(body, side->site.point, side->direction,
-                                               other->site.point, other->direction);
-            residual[c * n + j] += residual_of_side(problem, assembly, side, other, c, j);
+            if (j >= n) {
+                const struct contact_friction *friction = &problem->friction[(j - n) / 2];
+                other.direction = friction->sides[(j - n) % 2][q].direction;
+                other.load = &friction->sides[(j - n) % 2][q].load;
+            }
+            w[c * rows + j] +=
+                rigid_inverse_mass(body, own.point, own.direction, other.point, other.direction);
+            residual[c * rows + j] += residual_of_side(problem, assembly, side->body, &own, &other);
         }
     }
 }
@@ -673,8 +687,9 @@ static bool trace_find_sides(const struct problem *problem, const struct assembl
     *sides = (struct trace_sides){0};
     for (int s = 0; s < 2 && !problem->from_client; s++) {
         /* the four arrays of this side */
-        double *w = arena_take(arena, n * n, sizeof *w);
-        double *residual = arena_take(arena, n * n, sizeof *residual);
+        size_t rows = problem_rows(problem);
+        double *w = arena_take(arena, rows * rows, sizeof *w);
+        double *residual = arena_take(arena, rows * rows, sizeof *residual);
         double *velocity = arena_take(arena, n, sizeof *velocity);
         size_t *body = arena_take(arena, n, sizeof *body);
         if (!w || !residual || !velocity || !body)
