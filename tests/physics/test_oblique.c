@@ -4,6 +4,7 @@
 /* Impacts with friction, request by request: balls on walls and bars dropped askew against programs
  * of their own (foundations of 2000 cells; Timoshenko's bars by modes, in steps of 50 ns), and what
  * must not change an answer. */
+#include "physics/oblique_values.h"
 #include "physics/support.h"
 
 static const double RADIUS = 0.01;
@@ -30,33 +31,32 @@ static void balls_at_angles(void **state)
     (void)state;
     static struct solve_result result;
     static const double KAI = 3.5 * 1.4 / 1.7 / 2.0;
-    static const double psi[][2] = {{0.25, 0.0416},         {0.5, 0.0478},         {0.75, 0.0142},
-                                    {1.0, -0.0597},         {1.25, -0.2188},       {1.5, -0.4280},
-                                    {2.0, -0.8372},         {2.5, -1.1623},        {3.0, -1.3797},
-                                    {3.5, -1.4773},         {4.0, -1.4365},        {4.5, -1.2176},
-                                    {5.0, 5.0 - 4.0 * KAI}, {6.5, 6.5 - 4.0 * KAI}};
+    static const double sliding[] = {5.0, 6.5};
     static const double tolerance[] = {0.0, 1e-4};
     static const double mu = 0.25, kappa = 1.4 / 1.7;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, RADIUS));
     lab_add(lab, "wall", rigid_wall());
     for (size_t t = 0; t < COUNT(tolerance); t++)
-        for (size_t i = 0; i < COUNT(psi); i++) {
-            struct solve_request request = thrown("ball", RADIUS, 1.0, psi[i][0] * mu / kappa, mu);
+        for (size_t i = 0; i < COUNT(SPHERE_PSI) + COUNT(sliding); i++) {
+            bool slides = i >= COUNT(SPHERE_PSI);
+            double before = slides ? sliding[i - COUNT(SPHERE_PSI)] : SPHERE_PSI[i][0];
+            double after = slides ? before - 4.0 * KAI : SPHERE_PSI[i][1];
+            struct solve_request request = thrown("ball", RADIUS, 1.0, before * mu / kappa, mu);
             request.options.tolerance = tolerance[t];
             lab_solve(lab, &request, &result);
             const struct solve_contact_result *contact = &result.contacts[0];
             /* with the half digit of the values */
-            measured("slip after", contact->slip_after[0] * kappa / mu, psi[i][1],
+            measured("slip after", contact->slip_after[0] * kappa / mu, after,
                      (t ? 1e-4 : 1e-3) + 5e-5);
             near(contact->slip_after[1], 0.0, 1e-12);
             near(contact->restitution, 1.0, t ? 1e-5 : 1e-4);
             /* by the books of the cells, whose walk has two parts a node */
             near(result.energy.closure / result.energy.available, 0.0, t ? 5e-5 : 2e-4);
             assert_int_equal(contact->friction_state,
-                             psi[i][0] > 4.0 * KAI ? PERCUSS_FRICTION_STATE_SLID
-                             : psi[i][1] > 0.0     ? PERCUSS_FRICTION_STATE_PARTLY
-                                                   : PERCUSS_FRICTION_STATE_REVERSED);
+                             before > 4.0 * KAI ? PERCUSS_FRICTION_STATE_SLID
+                             : after > 0.0      ? PERCUSS_FRICTION_STATE_PARTLY
+                                                : PERCUSS_FRICTION_STATE_REVERSED);
         }
     lab_free(lab);
 }

@@ -104,7 +104,7 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     for (size_t i = 0; i + 1 < n; i++) {
         double width = friction->edge[i + 1] - friction->edge[i];
         friction->stiffness[i] = friction->slope[i + 1] - friction->slope[i];
-        friction->compliance[i] = 1.0 / friction->stiffness[i];
+        friction->compliance[i] = friction->stiffness[i] > 0.0 ? 1.0 / friction->stiffness[i] : 0.0;
         friction->base[i] = friction->force[i + 1] - friction->force[i] -
                             width * friction->slope[i] -
                             friction->edge[i + 1] * friction->stiffness[i];

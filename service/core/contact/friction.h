@@ -56,13 +56,13 @@ struct friction {
 void friction_ratios(const struct hertz_contact *hertz, const struct material *a,
                      const struct material *b, double ratio[2]);
 
-/* A contact without friction's history, with `parts` > 0 cells up to its depth, from the arena. False:
- * no memory. */
+/* A contact without friction's history, with `parts` > 0 cells up to its depth, from the arena.
+ * False: no memory. */
 bool friction_create(struct friction *friction, double coefficient, const double ratio[3],
                      size_t parts, struct arena *arena);
 
-/* The contact touches: its cells, all open, divide the indentations by `depth` (m), about the largest
- * one (sixteen times as much is as fine), and a law that stays until the contact opens. */
+/* The contact touches: its cells, all open, divide the indentations by `depth` (m), about the
+ * largest one (sixteen times as much is as fine), and a law that stays until the contact opens. */
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth);
 
 /* A second history of the same cells, at their first touch: for ways that are tried. False: no

@@ -336,8 +336,8 @@ static enum contact_step_end solve_together(struct contact_step *step,
 
 /* Forces and indentations of the normals at the nodes. */
 static inline enum contact_step_end solve_normals(struct contact_step *step,
-                                           const struct node_problem *problem,
-                                           const struct contact_start *start)
+                                                  const struct node_problem *problem,
+                                                  const struct contact_start *start)
 {
     if (node_solve(problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_SOLVED;

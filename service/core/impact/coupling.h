@@ -3,7 +3,7 @@
 
 /* Effects of the rows' forces on a step on each other's approaches: through the rigid bodies,
  * the residual flexibility and the modes. Only pairs that share one of these are computed. Few
- * contacts have a block for each pair. With many, the forces move the modes and these the rows,
+ * rows have a block for each pair. With many, the forces move the modes and these the rows,
  * so that one more row costs its modes, not a block for each other row. */
 #ifndef PERCUSS_IMPACT_COUPLING_H
 #define PERCUSS_IMPACT_COUPLING_H
@@ -12,7 +12,7 @@
 #include "base/watch.h"
 #include "impact/scene.h"
 
-/* Up to so many contacts, blocks of pairs are cheaper than sums over modes. */
+/* Up to so many rows, blocks of pairs are cheaper than sums over modes. */
 enum { COUPLING_FEW = 7 };
 
 /* Reduction of the approach at node i, or at the end, by a unit force at node j, m/N. */
@@ -20,18 +20,18 @@ struct coupling_block {
     double by[STEP_POINTS][NODES];
 };
 
-/* Another contact, or the contact itself. */
+/* Another row, or the row itself. */
 struct coupling_pair {
     size_t other;
     double w, residual;
 };
 
 struct coupling {
-    bool by_modes;                             /* many contacts: blocks only of each with itself */
-    size_t *first;                             /* [contacts + 1]: where a contact's pairs begin */
+    bool by_modes;                             /* many rows: blocks only of each with itself */
+    size_t *first;                             /* [rows + 1]: where a row's pairs begin */
     struct coupling_pair *pairs;               /* coupled ones, ascending; always with itself */
     size_t blocks;                             /* of a level */
-    size_t *own;                               /* [contact]: its own block */
+    size_t *own;                               /* [row]: its own block */
     struct coupling_block *level[STEP_LEVELS]; /* NULL: not yet */
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
@@ -44,14 +44,14 @@ bool coupling_create(struct coupling *coupling, const struct scene *scene, struc
 enum percuss_status coupling_prepare(struct coupling *coupling, const struct scene *scene,
                                      int level, struct arena *arena, struct pace *pace);
 
-/* A contact's effect on itself. */
+/* A row's effect on itself. */
 static inline const struct coupling_block *coupling_own(const struct coupling *coupling, int level,
-                                                        size_t contact)
+                                                        size_t row)
 {
-    return &coupling->level[level][coupling->own[contact]];
+    return &coupling->level[level][coupling->own[row]];
 }
 
-/* Effect of contact b's force on contact a, of few contacts; NULL: none. */
+/* Effect of row b's force on row a, of few rows; NULL: none. */
 const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
                                                   size_t a, size_t b);
 
@@ -59,8 +59,8 @@ const struct coupling_block *coupling_between_two(const struct coupling *couplin
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES]);
 
-/* taken[contact] becomes the reduction of its approach at the nodes and the end by these forces,
- * [contact][node]; without the residual flexibility at the end. */
+/* taken[row] becomes the reduction of its approach at the nodes and the end by these forces,
+ * [row][node]; without the residual flexibility at the end. */
 void coupling_take(const struct coupling *coupling, const struct scene *scene, int level,
                    double (*const force)[NODES], double (*taken)[STEP_POINTS]);
 

@@ -33,7 +33,9 @@ static void across(const double normal[3], double tangent[3])
     add_scaled3(-dot3(normal, tangent), normal, tangent);
 }
 
-void oblique_tangent(const struct solve_contact *contact, double tangent[3])
+/* The first tangent of a contact: as stated, or by a fixed rule (the world's axis that is least
+ * along the normal), made normal to it; world, unit. The second is normal x first. */
+static void oblique_find_tangent(const struct solve_contact *contact, double tangent[3])
 {
     double length = norm3(contact->tangent);
     if (length > 0.0) {
@@ -113,7 +115,7 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
         *next = (struct contact_friction){.contact = c};
         if (!find_coefficient(problem, catalogue, c, next))
             continue;
-        oblique_tangent(&problem->request->contacts[c], next->tangent[0]);
+        oblique_find_tangent(&problem->request->contacts[c], next->tangent[0]);
         cross3(problem->request->contacts[c].normal, next->tangent[0], next->tangent[1]);
         find_ratio(problem, next);
         place_tangents(problem, next);

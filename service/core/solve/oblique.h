@@ -9,7 +9,8 @@
 #include "solve/problem.h"
 
 /* Coefficients by the request or the catalogue, tangents and loads of the placed contacts.
- * PERCUSS_OK, BAD_REQUEST (a delassus beside friction, the plain law) or INTERNAL without memory. */
+ * PERCUSS_OK, BAD_REQUEST (a delassus beside friction, the plain law) or INTERNAL without memory.
+ */
 enum percuss_status oblique_find(struct problem *problem, const struct body_set *catalogue,
                                  struct fault *fault);
 
@@ -23,10 +24,6 @@ bool oblique_find_rows(struct problem *problem);
 /* Refuses what friction is not computed for: a law that yields, bodies that vibrate in three
  * dimensions, CVODE, finite elements. */
 enum percuss_status oblique_check(const struct problem *problem, struct fault *fault);
-
-/* The first tangent of a contact: as stated, or by a fixed rule (the world's axis that is least
- * along the normal), made normal to it; world, unit. The second is normal x first. */
-void oblique_tangent(const struct solve_contact *contact, double tangent[3]);
 
 /* A contact's friction, or NULL. */
 const struct contact_friction *oblique_of(const struct problem *problem, size_t contact);

@@ -45,31 +45,11 @@ double problem_largest_compression(const struct problem *problem)
     return largest;
 }
 
-/* One side of a row. */
-struct row_side {
-    size_t body;
-    const double *point;     /* body frame, m */
-    const double *direction; /* of the force on the body per newton, body frame */
-    const struct site_load *load;
-};
-static inline struct row_side row_side(const struct problem *problem, size_t row, int which)
-{
-    size_t n = problem->contact_count;
-    if (row < n) {
-        const struct contact_side *side = &problem->sides[row][which];
-        return (struct row_side){side->body, side->site.point, side->direction, &side->load};
-    }
-    const struct contact_friction *friction = &problem->friction[(row - n) / 2];
-    const struct contact_side *side = &problem->sides[friction->contact][which];
-    const struct contact_tangent *tangent = &friction->sides[(row - n) % 2][which];
-    return (struct row_side){side->body, side->site.point, tangent->direction, &tangent->load};
-}
-
 const struct family_load *problem_load(const struct problem *problem, size_t row, size_t body,
                                        size_t family)
 {
     for (int which = 0; which < 2; which++) {
-        struct row_side side = row_side(problem, row, which);
+        struct row_side side = problem_row_side(problem, row, which);
         if (side.body == body && side.load->family[family].acts)
             return &side.load->family[family];
     }
@@ -80,9 +60,9 @@ double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
 {
     double sum = 0.0;
     for (int p = 0; p < 2; p++) {
-        struct row_side a = row_side(problem, i, p);
+        struct row_side a = problem_row_side(problem, i, p);
         for (int q = 0; q < 2; q++) {
-            struct row_side b = row_side(problem, j, q);
+            struct row_side b = problem_row_side(problem, j, q);
             if (a.body == b.body)
                 sum += rigid_inverse_mass(problem->bodies[a.body], a.point, a.direction, b.point,
                                           b.direction);

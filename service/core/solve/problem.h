@@ -130,6 +130,26 @@ static inline size_t problem_row_contact(const struct problem *problem, size_t r
     return row < n ? row : problem->friction[(row - n) / 2].contact;
 }
 
+/* One side of a row. */
+struct row_side {
+    size_t body;
+    const double *point;     /* body frame, m */
+    const double *direction; /* of the force on the body per newton, body frame */
+    const struct site_load *load;
+};
+static inline struct row_side problem_row_side(const struct problem *problem, size_t row, int which)
+{
+    size_t n = problem->contact_count;
+    if (row < n) {
+        const struct contact_side *side = &problem->sides[row][which];
+        return (struct row_side){side->body, side->site.point, side->direction, &side->load};
+    }
+    const struct contact_friction *friction = &problem->friction[(row - n) / 2];
+    const struct contact_side *side = &problem->sides[friction->contact][which];
+    const struct contact_tangent *tangent = &friction->sides[(row - n) % 2][which];
+    return (struct row_side){side->body, side->site.point, tangent->direction, &tangent->load};
+}
+
 /* The load of a row on a body (an index) if it acts on the family, or NULL. */
 const struct family_load *problem_load(const struct problem *problem, size_t row, size_t body,
                                        size_t family);

@@ -611,29 +611,23 @@ void report_fill(const struct problem *problem, const struct solution *solution,
                                    "no finite answer: the numbers of the request are out of scale");
 }
 
-/* One side of a row, of a body. */
-struct row_load {
-    size_t row;
-    const double *point, *direction;
-    const struct site_load *load;
-};
-
-/* Compliance between two rows of one body that no mode of the scene holds. */
+/* Compliance between two rows on a body, that no mode of the scene holds. */
 static double residual_of_side(const struct problem *problem, const struct assembly *assembly,
-                               size_t body, const struct row_load *i, const struct row_load *j)
+                               const struct row_side *a, size_t row_a, const struct row_side *b,
+                               size_t row_b)
 {
     double sum = 0.0;
-    const struct body *of = problem->bodies[body];
-    for (size_t f = 0; f < of->kind->family_count; f++)
-        sum += modal_compliance(of, f, &i->load->family[f], &j->load->family[f]);
+    const struct body *body = problem->bodies[a->body];
+    for (size_t f = 0; f < body->kind->family_count; f++)
+        sum += modal_compliance(body, f, &a->load->family[f], &b->load->family[f]);
     for (size_t g = 0; g < assembly->scene.groups; g++) {
         const struct scene_group *group = &assembly->groups[g];
-        const double *a = group->participation[i->row];
-        const double *b = group->participation[j->row];
-        if (group->body != body)
+        const double *phi = group->participation[row_a];
+        const double *other = group->participation[row_b];
+        if (group->body != a->body)
             continue;
-        for (size_t k = group->count; a && b && k-- > 0;)
-            sum -= a[k] * b[k] / (group->set->omega[k] * group->set->omega[k]);
+        for (size_t k = group->count; phi && other && k-- > 0;)
+            sum -= phi[k] * other[k] / (group->set->omega[k] * group->set->omega[k]);
     }
     return sum;
 }
@@ -642,26 +636,17 @@ static double residual_of_side(const struct problem *problem, const struct assem
 static void share_of_side(const struct problem *problem, const struct assembly *assembly, size_t c,
                           int which, double *w, double *residual)
 {
-    const struct contact_side *side = &problem->sides[c][which];
-    const struct body *body = problem->bodies[side->body];
-    const struct row_load own = {c, side->site.point, side->direction, &side->load};
-    size_t n = problem->contact_count, rows = problem_rows(problem);
+    size_t rows = problem_rows(problem);
+    const struct row_side side = problem_row_side(problem, c, which);
     residual[c * rows + c] = problem->compliance.sides[c][which];
     for (size_t j = 0; j < rows; j++) {
-        size_t contact = problem_row_contact(problem, j);
         for (int q = 0; q < 2; q++) {
-            const struct contact_side *at = &problem->sides[contact][q];
-            struct row_load other = {j, at->site.point, at->direction, &at->load};
-            if (at->body != side->body)
+            const struct row_side other = problem_row_side(problem, j, q);
+            if (other.body != side.body)
                 continue;
-            if (j >= n) {
-                const struct contact_friction *friction = &problem->friction[(j - n) / 2];
-                other.direction = friction->sides[(j - n) % 2][q].direction;
-                other.load = &friction->sides[(j - n) % 2][q].load;
-            }
-            w[c * rows + j] +=
-                rigid_inverse_mass(body, own.point, own.direction, other.point, other.direction);
-            residual[c * rows + j] += residual_of_side(problem, assembly, side->body, &own, &other);
+            w[c * rows + j] += rigid_inverse_mass(problem->bodies[side.body], side.point,
+                                                  side.direction, other.point, other.direction);
+            residual[c * rows + j] += residual_of_side(problem, assembly, &side, c, &other, j);
         }
     }
 }

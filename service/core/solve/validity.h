@@ -14,8 +14,9 @@
 double validity_wave_loss(const struct problem *problem);
 
 /* Looks where a solution leaves the models' range: yield, size of contact and dent, edges, speed,
- * a missing table, the end of one, sliding without friction, with friction turning contacts and Painleve, a differing delassus, compliance,
- * losses of the materials themselves, no touch. Written into `warnings` from its beginning. */
+ * a missing table, the end of one, sliding without friction, with friction turning contacts and
+ * Painleve, a differing delassus, compliance, losses of the materials themselves, no touch. Written
+ * into `warnings` from its beginning. */
 void validity_find(const struct problem *problem, const struct impact_outcome *outcome,
                    struct warnings *warnings);
 

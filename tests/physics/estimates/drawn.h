@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Random scenes by class, for the campaigns of docs/lab/accuracy.md. Scene `number` of a class is the
- * same on every machine. */
+/* Random scenes by class, for the campaigns of docs/lab/accuracy.md. Scene `number` of a class is
+ * the same on every machine. */
 #ifndef PERCUSS_TEST_ESTIMATES_DRAWN_H
 #define PERCUSS_TEST_ESTIMATES_DRAWN_H
 
@@ -16,7 +16,7 @@
     X(RINGING, "ringing", "a second blow on bodies that ring from the first")                      \
     X(ECCENTRIC, "eccentric", "a sphere beside the axis of a rectangular bar")                     \
     X(ROLLED, "rolled", "two flexible bars, rolled about their axes")                              \
-    X(CHAIN, "chain", "two to five blows by token, damped or not")                                  \
+    X(CHAIN, "chain", "two to five blows by token, damped or not")                                 \
     X(OBLIQUE, "oblique", "contacts with friction, at any angle")
 
 enum scene_class {

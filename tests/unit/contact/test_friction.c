@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "physics/oblique_values.h"
 
 static const double EQUAL[3] = {1.0, 0.0, 1.0};
 
@@ -208,11 +209,8 @@ static void hit(struct oblique *oblique, size_t cells, int steps)
 static void spheres_at_angles(void **state)
 {
     (void)state;
-    static const double psi[][2] = {{0.25, 0.0416}, {0.5, 0.0478},   {0.75, 0.0142},
-                                    {1.0, -0.0597}, {1.25, -0.2188}, {1.5, -0.4280},
-                                    {2.0, -0.8372}, {2.5, -1.1623},  {3.0, -1.3797},
-                                    {3.5, -1.4773}, {4.0, -1.4365},  {4.5, -1.2176}};
-    for (size_t i = 0; i < COUNT(psi); i++) {
+    const double(*psi)[2] = SPHERE_PSI;
+    for (size_t i = 0; i < COUNT(SPHERE_PSI); i++) {
         struct oblique sphere = {{3.5, 3.5}, {psi[i][0], 0.0}, {0.0, 0.0}, 0.0};
         hit(&sphere, 256, 4000);
         /* steps and cells leave 3e-5 each, and the values have four digits */
@@ -254,11 +252,10 @@ static void in_two_directions(void **state)
 static void in_a_groove(void **state)
 {
     (void)state;
-    static const double rebound[][2] = {{0.05, 0.95690}, {0.1, 0.92604}, {0.2, 0.89271},
-                                        {0.3, 0.88597},  {0.5, 0.91490}, {0.9, 1.0}};
+    const double(*rebound)[2] = GROOVE_REBOUND;
     struct arena arena = {0};
     struct contact_law law = contact_law_hertz(1.0);
-    for (size_t i = 0; i < COUNT(rebound); i++) {
+    for (size_t i = 0; i < COUNT(GROOVE_REBOUND); i++) {
         struct friction friction;
         double z = 0.0, rate = 1.0, f = 0.0, force[2] = {0.0, 0.0}, slope, h = 1e-3;
         assert_true(friction_create(&friction, rebound[i][0],

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "physics/oblique_values.h"
 #include "unit/impact/toy_scene.h"
 
 static const double MU = 0.3, KAPPA = 1.4 / 1.7;
@@ -33,14 +34,10 @@ static struct impact_outcome hit(struct toy *toy, struct scene_friction *frictio
 static void spheres_at_angles(void **state)
 {
     (void)state;
-    static const double psi[][2] = {{0.25, 0.0416}, {0.5, 0.0478},   {0.75, 0.0142},
-                                    {1.0, -0.0597}, {1.25, -0.2188}, {1.5, -0.4280},
-                                    {2.0, -0.8372}, {2.5, -1.1623},  {3.0, -1.3797},
-                                    {3.5, -1.4773}, {4.0, -1.4365},  {4.5, -1.2176}};
-    static const double right[][3] = {
-        {1e-4, 1.2e-3, 2e-4}, {1e-5, 2e-4, 6e-5}, {1e-8, 1e-4, 2e-5}};
+    const double(*psi)[2] = SPHERE_PSI;
+    static const double right[][3] = {{1e-4, 1.2e-3, 2e-4}, {1e-5, 2e-4, 6e-5}, {1e-8, 1e-4, 2e-5}};
     for (size_t a = 0; a < COUNT(right); a++)
-        for (size_t i = 0; i < COUNT(psi); i++) {
+        for (size_t i = 0; i < COUNT(SPHERE_PSI); i++) {
             struct toy toy;
             struct scene_friction friction;
             struct impact_outcome outcome =
@@ -103,15 +100,14 @@ static void without_slip(void **state)
 static void in_a_groove(void **state)
 {
     (void)state;
-    static const double rebound[][2] = {{0.05, 0.95690}, {0.1, 0.92604}, {0.2, 0.89271},
-                                        {0.3, 0.88597},  {0.5, 0.91490}, {0.9, 1.0}};
+    const double(*rebound)[2] = GROOVE_REBOUND;
     enum { ROWS = 6 };
     /* axes x, z and the spin's radius: unit mass, normals (+-1, 1)/sqrt 2, tangents in the plane
      * and along the groove; inertia 2/5 */
     static const double x[ROWS] = {M_SQRT1_2, -M_SQRT1_2, M_SQRT1_2, 0.0, -M_SQRT1_2, 0.0};
     static const double z[ROWS] = {M_SQRT1_2, M_SQRT1_2, -M_SQRT1_2, 0.0, -M_SQRT1_2, 0.0};
     static const double turn[ROWS] = {0.0, 0.0, 1.0, 0.0, -1.0, 0.0};
-    for (size_t i = 0; i < COUNT(rebound); i++) {
+    for (size_t i = 0; i < COUNT(GROOVE_REBOUND); i++) {
         struct toy toy;
         struct scene_friction friction[2];
         toy_init(&toy, 2);

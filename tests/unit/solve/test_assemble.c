@@ -4,52 +4,20 @@
 /* Mirrors service/core/solve/assemble.c: which modes take part, and the residual flexibility of the
  * rest. */
 #include "model/bar.h"
-#include "physics/support.h"
-#include "solve/assemble.h"
-#include "solve/contact_model.h"
-#include "solve/formulation.h"
+#include "unit/solve/assembly_bench.h"
 
-struct bench {
-    struct lab *lab;
-    struct arena arena;
-    struct prepared_cache *cache;
-    struct problem *problem;
-    struct assembly assembly;
-};
-
-static struct bench *bench_create(void)
+static struct bench *with_rod(void)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
-    bench->lab = lab_create();
-    bench->cache = prepared_cache_create();
-    assert_non_null(bench->cache);
-    lab_add(bench->lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(bench->lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    struct bench *bench = bench_create();
     lab_add(bench->lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     return bench;
-}
-
-static void bench_free(struct bench *bench)
-{
-    prepared_cache_free(bench->cache);
-    arena_release(&bench->arena);
-    lab_free(bench->lab);
-    free(bench);
 }
 
 static const struct assembly *put_together(struct bench *bench, const struct solve_request *request,
                                            double cut)
 {
-    struct fault fault = {""};
-    struct mode_choice choice = {.cut = cut, .most = MODE_CHOICE_MOST};
-    prepared_cache_use(bench->cache, bench->lab->set.revision);
-    bench->problem = problem_create(request, bench->cache, &bench->arena);
-    assert_non_null(bench->problem);
-    if (placement_find(bench->problem, &bench->lab->set, &fault))
-        fail_msg("%s", fault.text);
-    assert_int_equal(contact_model_choose(bench->problem, NULL, &fault), PERCUSS_OK);
-    assert_true(assemble(&bench->assembly, bench->problem, &choice));
+    bench_place(bench, request);
+    bench_assemble(bench, cut);
     return &bench->assembly;
 }
 
@@ -62,7 +30,7 @@ static struct solve_request on_beam(double x, double about)
 static void modes_and_residual_are_the_compliance(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     const struct solve_request requests[] = {
         on_beam(0.0, 0.0), on_beam(0.31, 0.0), on_beam(0.31, 0.7),
         strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.2)};
@@ -113,7 +81,7 @@ static void modes_and_residual_are_the_compliance(void **state)
 static void modes_with_a_node_there_stay_out(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct solve_request centre = on_beam(0.0, 0.0), beside = on_beam(0.01, 0.0);
     struct solve_request turned = on_beam(0.01, 0.5);
     const struct assembly *assembly = put_together(bench, &centre, 1e5);
@@ -133,7 +101,7 @@ static void modes_with_a_node_there_stay_out(void **state)
 static void a_fixed_number_is_that_number(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     struct solve_request request = on_beam(0.1, 0.0);
     beam.modes = 16;
@@ -150,7 +118,7 @@ static void a_fixed_number_is_that_number(void **state)
 static void omitted_inertia_is_a_bound(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     const struct solve_request requests[] = {
         strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.2), on_beam(0.0, 0.0),
         on_beam(0.31, 0.0)};
@@ -175,7 +143,7 @@ static void omitted_inertia_is_a_bound(void **state)
 static void a_remainder_takes_the_residual(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct solve_request request = on_beam(0.1, 0.0);
     const struct assembly *assembly = put_together(bench, &request, 1e5);
     struct scene next;
@@ -195,7 +163,7 @@ static void a_remainder_takes_the_residual(void **state)
 static void less_allowed_is_more_modes(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct solve_request request = on_beam(0.0, 0.0);
     struct fault fault = {""};
     size_t last = 0;
@@ -220,7 +188,7 @@ static void less_allowed_is_more_modes(void **state)
 static void a_state_brings_its_modes(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct solve_request request = on_beam(0.1, 0.0);
     const size_t count = 12;
     struct body_state *ringing =
@@ -254,7 +222,7 @@ static void a_state_brings_its_modes(void **state)
 static void residuals_couple_contacts(void **state)
 {
     (void)state;
-    struct bench *bench = bench_create();
+    struct bench *bench = with_rod();
     struct solve_request request = on_beam(0.1, 0.0);
     request.body_count = 3;
     request.contact_count = 2;

@@ -4,40 +4,9 @@
 /* Mirrors service/core/solve/oblique.c and the rows of service/core/solve/assemble.c: a ball thrown
  * on the paper's beam at an angle, against a program of its own (282 modes up to 200 kHz, steps of
  * 50 ns, 2000 cells). */
-#include "physics/support.h"
-#include "solve/assemble.h"
-#include "solve/contact_model.h"
-#include "solve/formulation.h"
 #include "solve/oblique.h"
 #include "solve/outcome.h"
-
-struct bench {
-    struct lab *lab;
-    struct arena arena;
-    struct prepared_cache *cache;
-    struct problem *problem;
-    struct assembly assembly;
-};
-
-static struct bench *bench_create(void)
-{
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
-    bench->lab = lab_create();
-    bench->cache = prepared_cache_create();
-    assert_non_null(bench->cache);
-    lab_add(bench->lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(bench->lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
-    return bench;
-}
-
-static void bench_free(struct bench *bench)
-{
-    prepared_cache_free(bench->cache);
-    arena_release(&bench->arena);
-    lab_free(bench->lab);
-    free(bench);
-}
+#include "unit/solve/assembly_bench.h"
 
 /* The ball comes down on the beam at `place` of its length with 0.3 m/s at an angle from the
  * normal, its motion along the surface turned by `about` from the beam's axis. */
@@ -85,20 +54,13 @@ static void leave_out_second(struct problem *problem)
 static struct impact_outcome run(struct bench *bench, const struct solve_request *request,
                                  bool alone)
 {
-    struct fault fault = {""};
-    struct mode_choice choice = {.cut = 2.0 * M_PI * 200e3, .most = MODE_CHOICE_MOST};
     struct impact_settings settings = {.accuracy = 1e-9, .horizon = 0.02, .max_work = 1e9};
     struct impact_outcome outcome;
-    prepared_cache_use(bench->cache, bench->lab->set.revision);
-    bench->problem = problem_create(request, bench->cache, &bench->arena);
-    assert_non_null(bench->problem);
-    if (placement_find(bench->problem, &bench->lab->set, &fault))
-        fail_msg("%s", fault.text);
+    bench_place(bench, request);
     stiffen_sections(bench->problem);
     if (alone)
         leave_out_second(bench->problem);
-    assert_int_equal(contact_model_choose(bench->problem, NULL, &fault), PERCUSS_OK);
-    assert_true(assemble(&bench->assembly, bench->problem, &choice));
+    bench_assemble(bench, 2.0 * M_PI * 200e3);
     const struct scene *scene = &bench->assembly.scene;
     assert_true(impact_create(&outcome, scene, &bench->arena));
     assert_int_equal(impact_modal(scene, &settings, &bench->arena, &outcome), PERCUSS_OK);

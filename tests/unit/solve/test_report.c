@@ -171,7 +171,8 @@ static void warns_of_sliding(void **state)
     struct solve_request request = oblique(0.3, 0.0);
     char expected[64];
     lab_solve(lab, &request, &result);
-    assert_true(warns("slide there at 0.3 m/s, 1 times the approach: without a coefficient of friction"));
+    assert_true(
+        warns("slide there at 0.3 m/s, 1 times the approach: without a coefficient of friction"));
     /* sliding ends before Coulomb's bound, 0.3 of the impulse, is reached: m v / 3.5 */
     snprintf(expected, sizeof expected, "%.3g N s", mass * 0.3 / 3.5);
     assert_true(warns(expected) && warns("change that speed by up to 0.3 m/s"));

@@ -205,8 +205,8 @@ double attempt_first_accuracy(double tolerance, bool sequence, bool group)
     return fmax(fmin(share * tolerance, most), FINEST_STEPS);
 }
 
-/* Effect of omitting mode k, as row r sees it, on the impulse of the row's contact, as a part of that
- * of compression: its response to a slow force lacks inertia and viscosity (struct omitted in
+/* Effect of omitting mode k, as row r sees it, on the impulse of the row's contact, as a part of
+ * that of compression: its response to a slow force lacks inertia and viscosity (struct omitted in
  * assembly.h). The force along a tangent counts as one like the contact's: as a static flexibility
  * alone a slow mode would let the surfaces go with each other. */
 static double omission_effect(const struct problem *problem, const struct impact_outcome *answer,

@@ -427,7 +427,7 @@ static enum percuss_status amplify(const struct model_margin *margin, struct pac
 static const double LEAST_COEFFICIENT = 0.01;
 
 /* Solves again with all coefficients a deviation larger, and of sequences smaller: the changes of e
- * and of the tangential impulses. */
+ * and of the tangential impulses; INFINITY where one was cut off. */
 static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
                                        struct model_error *error)
 {
@@ -454,6 +454,12 @@ static enum percuss_status by_friction(const struct model_margin *margin, struct
         enum percuss_status status = attempt_run(&context, &attempt, &scene);
         if (status)
             return status;
+        if (attempt_is_spent(&attempt)) {
+            error->friction = INFINITY;
+            for (size_t i = 0; i < n; i++)
+                error->tangential[problem->friction[i].contact] = INFINITY;
+            return PERCUSS_OK;
+        }
         const struct impact_outcome *other = &attempt.outcome;
         for (size_t i = 0; i < n; i++) {
             size_t c = problem->friction[i].contact;

@@ -30,9 +30,8 @@ void neighbours_add(struct neighbours *neighbours, const struct problem *problem
     for (size_t c = 0; c < problem->contact_count; c++) {
         double e = outcome_restitution(problem, other, c);
         size_t count = other->tracks[c].count;
-        neighbours->tangential[c] =
-            fmax(neighbours->tangential[c],
-                 outcome_tangential_change(&neighbours->answer, other, c));
+        neighbours->tangential[c] = fmax(neighbours->tangential[c],
+                                         outcome_tangential_change(&neighbours->answer, other, c));
         neighbours->low[c] = fmin(neighbours->low[c], e);
         neighbours->high[c] = fmax(neighbours->high[c], e);
         neighbours->weakest[c] = fmin(neighbours->weakest[c], other->tracks[c].impulse);

@@ -15,7 +15,8 @@ struct neighbours {
     double low[PERCUSS_MAX_CONTACTS], high[PERCUSS_MAX_CONTACTS]; /* restitution; NAN: has none */
     double weakest[PERCUSS_MAX_CONTACTS], strongest[PERCUSS_MAX_CONTACTS]; /* impulse, N s */
     size_t fewest[PERCUSS_MAX_CONTACTS], most[PERCUSS_MAX_CONTACTS];       /* sub-impacts */
-    double tangential[PERCUSS_MAX_CONTACTS]; /* N s, by which its tangential impulse differs at most */
+    double
+        tangential[PERCUSS_MAX_CONTACTS]; /* N s, by which its tangential impulse differs at most */
     double vibration[PERCUSS_MAX_BODIES]; /* J, by which that of a body differs at most */
     struct impact_outcome answer;         /* from which it does */
 };

@@ -366,8 +366,8 @@ enum { MAX_RAISES = 8 };
 
 /* To first order, as if the omitted modes followed the force slowly: their inertia and viscosity
  * change the approach by -inertia F'' - viscosity F', which does work on the contact's stiffness.
- * Effect on the restitution, of the contact where it is largest, and of a tangent alike: it is about
- * as stiff. */
+ * Effect on the restitution, of the contact where it is largest, and of a tangent alike: it is
+ * about as stiff. */
 static struct outcome_difference slow_effect(const struct attempt_context *context,
                                              const struct attempt *attempt)
 {

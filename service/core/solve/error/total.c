@@ -93,13 +93,16 @@ static void report_tangential(const struct problem *problem, const struct soluti
         const struct contact_friction *friction = &problem->friction[i];
         size_t c = friction->contact;
         struct solve_contact_result *contact = &result->contacts[c];
-        double limit = friction->coefficient * outcome_impulse_scale(problem, &solution->outcome, c);
+        double limit =
+            friction->coefficient * outcome_impulse_scale(problem, &solution->outcome, c);
         double normal = (result->restitution_time + result->restitution_modes) * limit;
         double cells = FRICTION_LEFT * sqrt(solution->step_accuracy) * limit;
         double models = hypot(solution->error.models.tangential[c],
                               friction->coefficient * contact->impulse_error_model);
+        double sum = normal + fmax(cells, solution->neighbours->tangential[c]) + models;
+        /* from one end of Coulomb's range to the other */
         contact->impulse_tangential_error =
-            normal + fmax(cells, solution->neighbours->tangential[c]) + models;
+            fmin(sum, 2.0 * friction->coefficient * (contact->impulse + contact->impulse_error));
     }
 }
 
