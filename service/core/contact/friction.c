@@ -8,6 +8,7 @@
 
 #include "base/extremes.h"
 #include "base/vector_clones.h"
+#include "contact/plastic.h"
 #include "numeric/special.h"
 
 void friction_ratios(const struct hertz_contact *hertz, const struct material *a,
@@ -34,12 +35,16 @@ void friction_ratios(const struct hertz_contact *hertz, const struct material *a
  * the turn, of second order in it, is rounding. */
 static const double STRAIGHT = 1e-9;
 
+/* What a history has of its own; the cells' edges move with the branch of a law that yields. */
 static bool take_history(struct friction *friction, struct arena *arena)
 {
     size_t n = friction->count;
-    friction->share = arena_take(arena, 3 * n, sizeof *friction->share);
+    friction->share = arena_take(arena, 6 * n, sizeof *friction->share);
     friction->traction[0] = friction->share + n;
     friction->traction[1] = friction->share + 2 * n;
+    friction->edge = friction->share + 3 * n;
+    friction->force = friction->share + 4 * n;
+    friction->base = friction->share + 5 * n;
     return friction->share != NULL;
 }
 
@@ -53,14 +58,11 @@ bool friction_create(struct friction *friction, double coefficient, const double
     size_t count = DEEPER * parts;
     *friction = (struct friction){.coefficient = coefficient, .parts = parts, .count = count};
     memcpy(friction->ratio, ratio, sizeof friction->ratio);
-    friction->edge = arena_take(arena, 6 * count, sizeof *friction->edge);
-    if (!friction->edge || !take_history(friction, arena))
+    friction->slope = arena_take(arena, 3 * count, sizeof *friction->slope);
+    if (!friction->slope || !take_history(friction, arena))
         return false;
-    friction->force = friction->edge + count;
-    friction->slope = friction->edge + 2 * count;
-    friction->base = friction->edge + 3 * count;
-    friction->stiffness = friction->edge + 4 * count;
-    friction->compliance = friction->edge + 5 * count;
+    friction->stiffness = friction->slope + count;
+    friction->compliance = friction->slope + 2 * count;
     return true;
 }
 
@@ -73,19 +75,140 @@ bool friction_second(struct friction *second, const struct friction *friction, s
 void friction_copy(struct friction *to, const struct friction *from)
 {
     size_t cells = to->reached > from->reached ? to->reached : from->reached;
-    double *share = to->share;
+    size_t size = cells * sizeof *to->share;
+    double *share = to->share, *edge = to->edge, *force = to->force, *base = to->base;
     double *traction[2] = {to->traction[0], to->traction[1]};
-    memcpy(share, from->share, cells * sizeof *share);
-    memcpy(traction[0], from->traction[0], cells * sizeof *share);
-    memcpy(traction[1], from->traction[1], cells * sizeof *share);
+    memcpy(share, from->share, size);
+    memcpy(traction[0], from->traction[0], size);
+    memcpy(traction[1], from->traction[1], size);
+    if (from->spacing > 0.0) {
+        size = from->placed * sizeof *edge;
+        memcpy(edge, from->edge, size);
+        memcpy(force, from->force, size);
+        memcpy(base, from->base, size);
+    }
     *to = *from;
     to->share = share;
     memcpy(to->traction, traction, sizeof traction);
+    if (from->spacing > 0.0) {
+        to->edge = edge;
+        to->force = force;
+        to->base = base;
+    }
+}
+
+/* A cell that is closed throughout, by its edges. */
+static void close_cell(struct friction *friction, size_t i)
+{
+    double width = friction->edge[i + 1] - friction->edge[i];
+    friction->base[i] = friction->force[i + 1] - friction->force[i] - width * friction->slope[i] -
+                        friction->edge[i + 1] * friction->stiffness[i];
+}
+
+/* Cells of an elastic law. */
+static void divide_indentation(struct friction *friction)
+{
+    for (size_t i = 0; i < friction->count; i++) {
+        double part = (double)i / (double)friction->parts;
+        friction->edge[i] = friction->depth * part * part;
+        friction->force[i] =
+            contact_law_force(friction->law, friction->edge[i], &friction->slope[i]);
+    }
+    for (size_t i = 0; i + 1 < friction->count; i++) {
+        friction->stiffness[i] = friction->slope[i + 1] - friction->slope[i];
+        close_cell(friction, i);
+    }
+}
+
+/* The law's branch after a largest depth, its slopes made to rise. */
+static void find_branch(struct friction_branch *branch, const struct contact_law *law,
+                        double largest)
+{
+    const struct contact_law after = contact_law_after(law, largest);
+    const struct contact_history *history = &after.history;
+    double span = history->max_indentation - history->dent;
+    *branch = (struct friction_branch){.largest = largest, .dent = history->dent, .span = span};
+    for (int k = 1; k <= FRICTION_BRANCH; k++) {
+        double root = (double)k / FRICTION_BRANCH, slope;
+        after.operations->curve->branch(&after, root * root, &slope);
+        branch->slope[k] = larger(slope, branch->slope[k - 1]);
+    }
+    /* the integral of the slope by the way, the square of the root; its scale */
+    const double step = 1.0 / FRICTION_BRANCH;
+    for (int k = 0; k < FRICTION_BRANCH; k++)
+        branch->force[k + 1] = branch->force[k] + step * step *
+                                                      ((k + 1.0 / 3.0) * branch->slope[k] +
+                                                       (k + 2.0 / 3.0) * branch->slope[k + 1]);
+    double unit = history->max_force / branch->force[FRICTION_BRANCH];
+    for (int k = 0; k <= FRICTION_BRANCH; k++) {
+        branch->force[k] *= unit;
+        branch->slope[k] *= unit / span;
+    }
+}
+
+/* Force and slope of the branch at a root of the way back, 0..1. */
+static double branch_force(const struct friction_branch *branch, double root, double *slope)
+{
+    double place = root * FRICTION_BRANCH;
+    int k = place < FRICTION_BRANCH ? (int)place : FRICTION_BRANCH - 1;
+    double rise = branch->slope[k + 1] - branch->slope[k];
+    double part = place - k;
+    const double step = branch->span / (FRICTION_BRANCH * FRICTION_BRANCH);
+    *slope = branch->slope[k] + part * rise;
+    return branch->force[k] +
+           step * part *
+               (branch->slope[k] * (2.0 * k + part) + rise * part * (k + 2.0 / 3.0 * part));
+}
+
+/* The law's largest depth at an indentation, m. */
+static double largest_depth(const struct contact_law *law, double indentation)
+{
+    double so_far = larger(law->operations->curve->yield(law), law->history.max_indentation);
+    return larger(so_far, indentation + law->history.dent);
+}
+
+/* Moves the cells' edges to the branch at an indentation. False: they are there. */
+static bool follow_branch(struct friction *friction, double indentation)
+{
+    struct friction_branch *branch = &friction->branch;
+    double largest = largest_depth(friction->law, indentation);
+    if (largest == branch->largest)
+        return false;
+    find_branch(branch, friction->law, largest);
+    double top = branch->slope[FRICTION_BRANCH];
+    int k = 0;
+    size_t i = 0;
+    for (; i < friction->count && friction->slope[i] <= top; i++) {
+        while (k + 1 < FRICTION_BRANCH && branch->slope[k + 1] < friction->slope[i])
+            k++;
+        double rise = branch->slope[k + 1] - branch->slope[k], slope;
+        double part = rise > 0.0 ? (friction->slope[i] - branch->slope[k]) / rise : 0.0;
+        double root = (k + part) / FRICTION_BRANCH;
+        friction->edge[i] = branch->span * root * root;
+        friction->force[i] = branch_force(branch, root, &slope);
+        if (i > 0)
+            close_cell(friction, i - 1);
+    }
+    friction->placed = i;
+    return true;
+}
+
+/* Cells of a law that yields. */
+static void divide_slope(struct friction *friction)
+{
+    struct friction_branch deepest;
+    find_branch(&deepest, friction->law, largest_depth(friction->law, friction->depth));
+    friction->spacing = deepest.slope[FRICTION_BRANCH] / (double)friction->parts;
+    for (size_t i = 0; i < friction->count; i++) {
+        friction->slope[i] = friction->spacing * (double)i;
+        friction->stiffness[i] = friction->spacing;
+    }
+    friction->branch.largest = 0.0;
+    follow_branch(friction, 0.0);
 }
 
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth)
 {
-    size_t n = friction->count;
     const double *kappa = friction->ratio;
     double square = kappa[0] * kappa[2] - kappa[1] * kappa[1];
     friction->law = law;
@@ -96,21 +219,20 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     friction->over_ratio[2] = kappa[0] / square;
     friction->indentation = friction->normal = friction->stuck = 0.0;
     friction->displacement[0] = friction->displacement[1] = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        double part = (double)i / (double)friction->parts;
-        friction->edge[i] = depth * part * part;
-        friction->force[i] = contact_law_force(law, friction->edge[i], &friction->slope[i]);
-    }
-    for (size_t i = 0; i + 1 < n; i++) {
-        double width = friction->edge[i + 1] - friction->edge[i];
-        friction->stiffness[i] = friction->slope[i + 1] - friction->slope[i];
+    friction->spacing = 0.0;
+    if (law->operations->curve)
+        divide_slope(friction);
+    else
+        divide_indentation(friction);
+    for (size_t i = 0; i + 1 < friction->count; i++)
         friction->compliance[i] = friction->stiffness[i] > 0.0 ? 1.0 / friction->stiffness[i] : 0.0;
-        friction->base[i] = friction->force[i + 1] - friction->force[i] -
-                            width * friction->slope[i] -
-                            friction->edge[i + 1] * friction->stiffness[i];
-    }
-    memset(friction->share, 0, 3 * n * sizeof *friction->share);
+    memset(friction->share, 0, 3 * friction->count * sizeof *friction->share);
     friction->reached = 0;
+}
+
+void friction_deepen(struct friction *friction, double deeper)
+{
+    friction->indentation -= deeper;
 }
 
 /* The cell that is closed in part at an indentation > 0, and those before it throughout. */
@@ -126,37 +248,54 @@ static size_t last_closed(const struct friction *friction, double indentation)
     return i;
 }
 
-/* The normal law at an indentation. */
+/* The normal law at an indentation, which counts from the bottom of the branch's dent. */
 struct normal {
     double indentation, force, slope;
     size_t last; /* cell closed in part */
 };
 
-static struct normal normal_at(const struct friction *friction, double indentation)
+static struct normal normal_on_branch(const struct friction *friction, double indentation)
 {
-    struct normal at = {.indentation = indentation};
-    if (indentation > 0.0) {
-        at.force = contact_law_force(friction->law, indentation, &at.slope);
-        at.last = last_closed(friction, indentation);
-    }
+    const struct friction_branch *branch = &friction->branch;
+    double back = indentation + friction->law->history.dent - branch->dent;
+    struct normal at = {.indentation = larger(smaller(back, branch->span), 0.0)};
+    at.force = branch_force(branch, sqrt(at.indentation / branch->span), &at.slope);
+    size_t last = friction->placed - 1;
+    double place = at.slope / friction->spacing;
+    at.last = place < (double)last ? (size_t)place : last;
     return at;
 }
 
-/* The normal force that a cell bears, and its stiffness over kappa. */
-static double cell_share(const struct friction *friction, size_t i, const struct normal *at,
-                         double *stiffness)
+static struct normal normal_at(const struct friction *friction, double indentation)
+{
+    struct normal at = {.indentation = 0.0};
+    if (!(indentation > 0.0))
+        return at;
+    if (friction->spacing > 0.0)
+        return normal_on_branch(friction, indentation);
+    at.indentation = indentation;
+    at.force = contact_law_force(friction->law, indentation, &at.slope);
+    at.last = last_closed(friction, indentation);
+    return at;
+}
+
+/* The stiffness of a cell over kappa. */
+static double cell_stiffness(const struct friction *friction, size_t i, const struct normal *at)
+{
+    if (i < at->last)
+        return friction->stiffness[i];
+    return i == at->last ? larger(at->slope - friction->slope[i], 0.0) : 0.0;
+}
+
+/* The normal force that a cell bears. */
+static double cell_share(const struct friction *friction, size_t i, const struct normal *at)
 {
     double below = at->indentation - friction->edge[i];
-    *stiffness = 0.0;
-    if (!(below > 0.0))
+    if (i > at->last || !(below > 0.0))
         return 0.0;
-    if (i < at->last) {
-        *stiffness = friction->stiffness[i];
-        return friction->base[i] + *stiffness * at->indentation;
-    }
-    *stiffness = at->slope - friction->slope[i];
-    double share = at->force - friction->force[i] - below * friction->slope[i];
-    return share > 0.0 ? share : 0.0;
+    if (i < at->last)
+        return friction->base[i] + friction->stiffness[i] * at->indentation;
+    return larger(at->force - friction->force[i] - below * friction->slope[i], 0.0);
 }
 
 /* (x, y)^T kappa^-1 of another vector. */
@@ -438,9 +577,9 @@ static bool stays_on_line(const struct friction *friction, const struct normal *
            fabs(walk->moved[1]) * to->slope <= STRAIGHT * larger(to->force, friction->normal);
 }
 
-/* From one indentation >= 0 to another. */
+/* From one indentation >= 0 to another, whether the branch has moved between them. */
 static void walk_cells(struct friction *friction, const struct normal *from,
-                       const struct normal *to, struct walk *walk)
+                       const struct normal *to, bool yielded, struct walk *walk)
 {
     double way = to->indentation - from->indentation;
     bool is_short = !(fabs(way) > SHORT * larger(to->indentation, from->indentation));
@@ -458,15 +597,16 @@ static void walk_cells(struct friction *friction, const struct normal *from,
                                      stiffness, stiffness};
         cell_walk(friction, i, &end, walk);
     }
-    /* those that open or close: a share is the integral of its stiffness, which gives the mean over
-     * the way */
+    /* those that open or close: on one branch a share is the integral of its stiffness, which gives
+     * the mean over the way */
     for (size_t i = first; i <= last; i++) {
-        double before;
-        struct cell_end end;
-        cell_share(friction, i, from, &before);
-        end.share = cell_share(friction, i, to, &end.after);
+        double before = cell_stiffness(friction, i, from);
+        struct cell_end end = {.share = cell_share(friction, i, to),
+                               .after = cell_stiffness(friction, i, to)};
         end.before = smaller(before, end.after);
-        end.stiffness = is_short ? end.after : (end.share - friction->share[i]) / way;
+        end.stiffness = yielded    ? 0.5 * (before + end.after)
+                        : is_short ? end.after
+                                   : (end.share - friction->share[i]) / way;
         if (end.after < before)
             cell_open(friction, i, before, end.after, walk);
         cell_walk(friction, i, &end, walk);
@@ -491,9 +631,10 @@ void friction_walk(struct friction *friction, double indentation, const double d
     walk.moved[0] = kappa[0] * x + kappa[1] * y;
     walk.moved[1] = kappa[1] * x + kappa[2] * y;
     if (before > 0.0 || indentation > 0.0) {
-        const struct normal from = normal_at(friction, larger(before, 0.0));
-        const struct normal to = normal_at(friction, larger(indentation, 0.0));
-        walk_cells(friction, &from, &to, &walk);
+        const struct normal from = normal_at(friction, before);
+        bool yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);
+        const struct normal to = normal_at(friction, indentation);
+        walk_cells(friction, &from, &to, yielded, &walk);
         friction->normal = to.force;
     }
     friction->indentation = indentation;
@@ -522,9 +663,8 @@ double friction_stored(const struct friction *friction)
     const struct normal at = normal_at(friction, friction->indentation);
     double sum = 0.0;
     for (size_t i = 0; at.indentation > 0.0 && i <= at.last; i++) {
-        double stiffness;
+        double stiffness = cell_stiffness(friction, i, &at);
         const double force[2] = {friction->traction[0][i], friction->traction[1][i]};
-        cell_share(friction, i, &at, &stiffness);
         if (stiffness > 0.0)
             sum += over_ratio(friction->over_ratio, force[0], force[1], force) / (2.0 * stiffness);
     }

@@ -22,6 +22,17 @@
 #include "contact/hertz.h"
 #include "contact/law.h"
 
+/* The unloading branch of a law that yields: its slope is linear between equal steps of the root
+ * of the way back, as Hertz's is throughout. */
+enum { FRICTION_BRANCH = 16 };
+
+struct friction_branch {
+    double largest, dent;              /* depths from the undeformed surface, m; 0: none yet */
+    double span;                       /* way back, m */
+    double slope[FRICTION_BRANCH + 1]; /* N/m */
+    double force[FRICTION_BRANCH + 1]; /* N */
+};
+
 struct friction {
     const struct contact_law *law; /* borrowed */
     double coefficient;            /* mu > 0 */
@@ -32,7 +43,10 @@ struct friction {
     /* the cells, [count]: y_i (m), the law's force and slope there (N, N/m), and share and slope of
      * a cell that is closed throughout: share = base + stiffness d; 1/stiffness */
     double *edge, *force, *slope, *base, *stiffness, *compliance;
-    double depth; /* m, of the cells */
+    double depth;                  /* m, of the cells */
+    double spacing;                /* N/m, of the cells' slopes where the law yields; 0: elastic */
+    struct friction_branch branch; /* of a law that yields, */
+    size_t placed;                 /* and the cells whose edges lie on it */
     /* the history: at the indentation (m; <= 0: open), the share (N) and the tangential force over
      * mu (N) of each cell by direction; displacement since the touch, m */
     double *share, *traction[2];
@@ -62,7 +76,8 @@ bool friction_create(struct friction *friction, double coefficient, const double
                      size_t parts, struct arena *arena);
 
 /* The contact touches: its cells, all open, divide the indentations by `depth` (m), about the
- * largest one (sixteen times as much is as fine), and a law that stays until the contact opens. */
+ * largest one (sixteen times as much is as fine), and a law whose history changes only by yielding
+ * until the contact opens. */
 void friction_touch(struct friction *friction, const struct contact_law *law, double depth);
 
 /* A second history of the same cells, at their first touch: for ways that are tried. False: no
@@ -71,6 +86,9 @@ bool friction_second(struct friction *second, const struct friction *friction, s
 
 /* Copies cells and history. */
 void friction_copy(struct friction *to, const struct friction *from);
+
+/* The law has yielded at this instant, and its dent has deepened (m). */
+void friction_deepen(struct friction *friction, double deeper);
 
 /* Goes on to an indentation (<= 0: open) and a displacement, both in proportion; force[j] becomes
  * the tangential force of a on b, N. */

@@ -97,6 +97,14 @@ static struct contact_history history_of(const struct contact_law *law, double d
     };
 }
 
+struct contact_law contact_law_after(const struct contact_law *law, double depth)
+{
+    struct contact_law after = *law;
+    if (depth > law->history.max_indentation)
+        after.history = history_of(law, depth);
+    return after;
+}
+
 double contact_law_yield(struct contact_law *law, double indentation)
 {
     double before = plastic_stored(law, indentation);

@@ -56,6 +56,10 @@ double contact_law_limit(const struct contact_law *law);
 /* Stiffness (N/m) at the top of the unloading branch; 0: the law has no branch yet. */
 double contact_law_unloading(const struct contact_law *law);
 
+/* The law after a largest depth (m, from the undeformed surface) of at least its history's and its
+ * yield. */
+struct contact_law contact_law_after(const struct contact_law *law, double depth);
+
 /* Makes an indentation beyond the limit the largest so far. Returns the dissipated energy (J, the
  * area of the loop), by the law's own integrals. The dent deepens: indentations then count from its
  * new bottom, lower by the increase of history.dent. */

@@ -139,6 +139,14 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
     }
 }
 
+void friction_step_deepen(struct friction_step *step, const struct scene *scene, size_t contact,
+                          double deeper)
+{
+    size_t friction = scene_friction_of(scene, contact);
+    if (friction < step->count)
+        friction_deepen(&step->now[friction], deeper);
+}
+
 void friction_step_take(struct friction_step *step)
 {
     for (size_t i = 0; i < step->count; i++) {

@@ -60,6 +60,10 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
 void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
                        double normal, double force[2], double stiffness[2]);
 
+/* The law of a contact has yielded at the present: its dent has deepened (m). */
+void friction_step_deepen(struct friction_step *step, const struct scene *scene, size_t contact,
+                          double deeper);
+
 /* The end becomes the present. */
 void friction_step_take(struct friction_step *step);
 

@@ -31,7 +31,7 @@ struct yielding_event {
 struct yielding {
     const struct scene *scene; /* with the laws of the outcome */
     struct impact_outcome *outcome;
-    const struct contact_step *step;   /* the one just solved */
+    struct contact_step *step;         /* the one just solved */
     struct contact_start *now;         /* [contact] */
     const bool *closed;                /* [contact] */
     const struct impact_scale *scales; /* [contact], of closed ones */

@@ -181,11 +181,6 @@ enum percuss_status oblique_check(const struct problem *problem, struct fault *f
             snprintf(reason, sizeof reason, "%s: %s", body->id, body->kind->why_no_friction);
             return refuse_friction(c, reason, fault);
         }
-        if (problem->contact_model.laws[c].operations->curve)
-            return refuse_friction(c,
-                                   "the contact yields, for which friction is not computed yet: "
-                                   "contact_model hertz leaves the yielding out",
-                                   fault);
     }
     return PERCUSS_OK;
 }

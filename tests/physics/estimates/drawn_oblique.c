@@ -25,6 +25,17 @@ static void set_coefficients(struct lab *lab, uint64_t *r)
     lab->set.friction_count = count;
 }
 
+/* A third of the scenes are of metals some of which yield. */
+static void set_yields(struct lab *lab, uint64_t *r)
+{
+    if (scene_pick(r, 3))
+        return;
+    for (size_t b = 0; b < lab->set.count; b++)
+        if (scene_pick(r, 3))
+            lab->bodies[b].material.yield =
+                lab->bodies[b].material.young * scene_log(r, 1e-3, 1e-2);
+}
+
 /* Speeds along the surface up to five times the approach, and spins of about as much. */
 static void throw(uint64_t * r, struct solve_body *body, double radius, double approach)
 {
@@ -95,6 +106,7 @@ void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
             throw(r, &scene->request.bodies[b], body->radius, approach);
     }
     set_coefficients(lab, r);
+    set_yields(lab, r);
     scene_say(scene, "%s%s, approach %.4g m/s, mu %.3g", scene->text[0] ? "; " : "", kinds[kind],
               approach, lab->set.friction[0].coefficient);
 }

@@ -67,12 +67,15 @@ expect 0 hit beam --friction 0.3 --friction-law none --json
 bare | cmp - "$work/never" || fail "friction-law none moves the answer"
 [ "$(field friction_state)" = none ] || fail "a state of friction without friction"
 
+say "a contact that yields has friction as well"
+expect 0 hit soft --friction 0.3 --json
+[ "$(field plastic)" != 0 ] || fail "the soft body leaves no dent"
+[ "$(field friction_state)" != none ] || fail "no friction where the contact yields"
+
 say "what has no tangential forces is refused by name"
 expect 5 hit block --friction 0.3
 says "contacts[0].friction: block: its flexibility along the surface is not known"
 expect 0 hit block --friction 0.3 --friction-law none
-expect 5 hit soft --friction 0.3
-says "contacts[0].friction: the contact yields, for which friction is not computed yet"
 expect 5 hit beam --friction 0.3 --method cvode
 says "contacts[0].friction: the method cvode has no friction"
 expect 5 hit beam --friction 0.3 --contact-model complete-fe

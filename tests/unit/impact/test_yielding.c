@@ -229,10 +229,12 @@ static void a_peak_within_rounding_is_the_same_again(void **state)
     const double limit = contact_law_limit(&outcome.laws[0]);
     struct contact_start now = {limit + depth * 2.0 * DBL_EPSILON, 0.0, -1e3, 0.0};
     struct impact_scale scale = {.duration = 1e-5};
+    struct contact_step step = {.iterations = 0};
     struct scene scene = toy.scene;
     scene.laws = outcome.laws;
     struct yielding yielding = {.scene = &scene,
                                 .outcome = &outcome,
+                                .step = &step,
                                 .now = &now,
                                 .closed = &closed,
                                 .scales = &scale,
