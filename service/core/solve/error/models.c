@@ -426,6 +426,14 @@ static enum percuss_status amplify(const struct model_margin *margin, struct pac
 /* A deviation takes no more of a coefficient. */
 static const double LEAST_COEFFICIENT = 0.01;
 
+static bool coefficients_are_exact(const struct problem *problem)
+{
+    for (size_t i = 0; i < problem->friction_count; i++)
+        if (problem->friction[i].deviation > 0.0)
+            return false;
+    return true;
+}
+
 /* Solves again with all coefficients a deviation larger, and of sequences smaller: the changes of e
  * and of the tangential impulses; INFINITY where one was cut off. */
 static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
@@ -499,7 +507,7 @@ enum percuss_status models_find_error(const struct problem *problem,
     single(&margin, error);
     if (is_sequence(&margin))
         status = amplify(&margin, pace, error);
-    if (!status && problem->friction_count)
+    if (!status && !coefficients_are_exact(problem))
         status = by_friction(&margin, pace, error);
     error->restitution = hypot(error->restitution, error->friction);
     /* losses of the materials themselves, and of metals of unstated yield */
