@@ -213,6 +213,7 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     double square = kappa[0] * kappa[2] - kappa[1] * kappa[1];
     friction->law = law;
     friction->depth = depth;
+    friction->isotropic = kappa[0] == kappa[2] && kappa[1] == 0.0;
     friction->line = fabs(kappa[1]) <= STRAIGHT * kappa[0];
     friction->over_ratio[0] = kappa[2] / square;
     friction->over_ratio[1] = -kappa[1] / square;
@@ -305,202 +306,205 @@ static inline double over_ratio(const double over[3], double x, double y, const 
            y * (over[1] * other[0] + over[2] * other[1]);
 }
 
-/* A walk of the cells: the way of kappa times the displacement over mu, and sums; the loss over
- * mu^2. */
+/* A walk of the cells: the way of kappa times the displacement over mu, and sums, all along the
+ * axis and across it; the loss over mu^2. */
 struct walk {
     double moved[2];
     double force[2], lost;
     double stuck, turning[2]; /* stiffnesses of cells that stick, and of forces that turn */
 };
 
-/* The end of a cell's way. */
-struct cell_end {
+/* A cell's way: its force and share at the beginning, what it has at the end. */
+struct cell_way {
+    double x, y, from;
     double share;
     double stiffness;     /* mean over the way */
-    double before, after; /* of the part that was closed all the way, and at the end */
+    double before, after; /* compliances of the part that was closed all the way, and at the end */
 };
 
-/* The way of a cell that slips, from the share `from` at its beginning: its force where it reaches
- * the limit, and the part of the way that is left then. */
-struct slip {
-    double at[2], share, left;
+/* The force at the end of a cell's way; what it lost over mu^2; stiffnesses. */
+struct cell_end {
+    double x, y, lost;
+    double stuck, turning[2]; /* of a cell that sticks, and of a force that turns */
 };
 
 /* A cell that has slipped before is at its limit: but for rounding. */
 static const double AT_LIMIT = 1e-12;
 
-static inline struct slip slip_begin(const double force[2], double from, const struct cell_end *end,
-                                     const double moved[2])
+/* Part of a loop over cells, which is vectorised as a whole. */
+#define EACH_CELL __attribute__((always_inline)) static inline
+
+/* Where the force of a cell reaches its limit, its share there, and the part of the way that is
+ * left then: |force + part way| = from + part grown, `way` elastic. Every value is found, also
+ * those that do not count, so that a loop over cells needs no branch. */
+struct slip {
+    double x, y, share, left;
+};
+
+EACH_CELL struct slip slip_begin(const struct cell_way *cell, const double way[2])
 {
-    double x = end->stiffness * moved[0], y = end->stiffness * moved[1];
-    double grown = end->share - from;
-    /* |force + part (x, y)| = from + part grown */
-    double a = x * x + y * y - grown * grown;
-    double b = force[0] * x + force[1] * y - from * grown;
-    double c = force[0] * force[0] + force[1] * force[1] - from * from;
-    if (b >= 0.0 && c >= -AT_LIMIT * from * from)
-        return (struct slip){{force[0], force[1]}, from, 1.0};
-    double root = sqrt(larger(b * b - a * c, 0.0));
-    double part = b > 0.0 ? -c / (b + root) : a > 0.0 ? (root - b) / a : 0.0;
-    part = part > 0.0 ? smaller(part, 1.0) : 0.0;
-    return (struct slip){
-        {force[0] + part * x, force[1] + part * y}, from + part * grown, 1.0 - part};
+    double grown = cell->share - cell->from;
+    double a = way[0] * way[0] + way[1] * way[1] - grown * grown;
+    double b = cell->x * way[0] + cell->y * way[1] - cell->from * grown;
+    double square = cell->from * cell->from;
+    double c = cell->x * cell->x + cell->y * cell->y - square;
+    double under = b * b - a * c;
+    double root = sqrt(under > 0.0 ? under : 0.0);
+    double above = b > 0.0 ? -c : root - b;
+    double below = b > 0.0 ? b + root : a;
+    double part = above / (below > 0.0 ? below : 1.0);
+    part = below > 0.0 ? part : 0.0;
+    part = part > 0.0 ? part : 0.0;
+    part = part < 1.0 ? part : 1.0;
+    double goes_on = b >= 0.0 ? c : -1.0;
+    double least = goes_on == c ? -AT_LIMIT * square : 0.0;
+    part = goes_on >= least ? 0.0 : part;
+    return (struct slip){cell->x + part * way[0], cell->y + part * way[1],
+                         cell->from + part * grown, 1.0 - part};
 }
 
 /* Along a contact's ellipse the slip is not along kappa times the slip: the rest turns the force
- * that has the direction n, as a way of its own. `grown`: of the limit. */
-static inline void across_kappa(const double ratio[3], const double n[2], double grown,
-                                const double way[2], double turned[2])
+ * that has the direction of `at`, of the size `share`, as a way of its own. `grown`: of the limit.
+ */
+EACH_CELL void across_kappa(const double ratio[3], const double at[2], double share, double grown,
+                            double way[2])
 {
     double apart = 0.5 * (ratio[0] - ratio[2]);
-    double x = ratio[0] * n[0] + ratio[1] * n[1], y = ratio[1] * n[0] + ratio[2] * n[1];
-    double slipped = (way[0] * n[0] + way[1] * n[1] - grown) / (x * n[0] + y * n[1]);
-    slipped = larger(slipped, 0.0);
-    turned[0] = way[0] - slipped * (apart * n[0] + ratio[1] * n[1]);
-    turned[1] = way[1] - slipped * (ratio[1] * n[0] - apart * n[1]);
+    double x = ratio[0] * at[0] + ratio[1] * at[1], y = ratio[1] * at[0] + ratio[2] * at[1];
+    double slipped = (way[0] * at[0] + way[1] * at[1] - grown * share) / (x * at[0] + y * at[1]);
+    slipped = slipped > 0.0 ? slipped : 0.0;
+    way[0] -= slipped * (apart * at[0] + ratio[1] * at[1]);
+    way[1] -= slipped * (ratio[1] * at[0] - apart * at[1]);
 }
 
-/* The same for a cell that has just begun to touch, which has no direction yet: in rounds, each of
- * which leaves its part of kappa's anisotropy. */
-static void across_from_rest(const double ratio[3], double grown, const double way[2],
-                             double turned[2])
+/* The direction of the force at the end of a slip that has a share > 0 at its beginning; *left
+ * becomes the share of the trial force that the limit leaves. A force turns towards the way by
+ * tan(angle/2) = exp(-a) of it before, a the elastic force of the way over the limit: to second
+ * order in a, and all of it for large ones. */
+EACH_CELL void slip_direction(const double ratio[3], const struct slip *slip, double share,
+                              const double elastic[2], double along[2], double *left)
 {
-    turned[0] = way[0];
-    turned[1] = way[1];
-    for (int round = 0; round < 4; round++) {
-        double size = sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
-        if (!(size > 0.0))
-            return;
-        const double n[2] = {turned[0] / size, turned[1] / size};
-        across_kappa(ratio, n, grown, way, turned);
-    }
-}
-
-/* The direction of the force at the end of a slip; returns the share of the trial force that the
- * limit leaves. A force turns towards the way by tan(angle/2) = exp(-a) of it before, a the
- * elastic force of the way over the limit: to second order in a, and all of it for large ones. */
-static inline double slip_direction(const double ratio[3], const struct slip *slip,
-                                    const struct cell_end *end, const double moved[2],
-                                    double along[2])
-{
-    double limit = 0.5 * (slip->share + end->share);
-    double rigid = slip->left * end->stiffness;
-    double way[2] = {rigid * moved[0], rigid * moved[1]};
-    if (ratio[0] != ratio[2] || ratio[1] != 0.0) {
-        const double elastic[2] = {way[0], way[1]};
-        double grown = end->share - slip->share, over = 1.0 / slip->share;
-        if (slip->share > 0.0)
-            across_kappa(ratio, (const double[2]){over * slip->at[0], over * slip->at[1]}, grown,
-                         elastic, way);
-        else
-            across_from_rest(ratio, grown, elastic, way);
-    }
-    /* all of it times the share */
-    double bend = 0.5 * (slip->at[0] * way[0] + slip->at[1] * way[1]) / limit;
-    double turn = bend > 0.0 || !(slip->share > 0.0)
-                      ? slip->share + bend
-                      : slip->share * slip->share / (slip->share - bend);
-    double x = limit * slip->at[0] + turn * way[0], y = limit * slip->at[1] + turn * way[1];
-    if (!(slip->share > 0.0)) {
-        x = way[0];
-        y = way[1];
-    }
-    double size = sqrt(x * x + y * y);
-    if (!(size > 0.0)) { /* as if it had not turned yet: shares may fall faster than forces */
-        x = slip->at[0];
-        y = slip->at[1];
-        size = slip->share;
-    }
-    size = 1.0 / size;
+    double limit = 0.5 * (slip->share + share);
+    const double at[2] = {slip->x, slip->y};
+    double way[2] = {slip->left * elastic[0], slip->left * elastic[1]};
+    across_kappa(ratio, at, slip->share, share - slip->share, way);
+    /* at + way (share + bend)/limit, or at + way share^2/(share - bend)/limit where it turns back,
+     * bend = at.way/(2 limit); times what has no quotient */
+    double bend = 0.5 * (at[0] * way[0] + at[1] * way[1]);
+    double both = slip->share * limit;
+    double keep = bend > 0.0 ? limit * limit : both - bend;
+    double turn = bend > 0.0 ? both + bend : slip->share * slip->share;
+    double x = keep * at[0] + turn * way[0], y = keep * at[1] + turn * way[1];
+    double square = x * x + y * y;
+    /* as if it had not turned yet: shares may fall faster than forces */
+    x = square > 0.0 ? x : at[0];
+    y = square > 0.0 ? y : at[1];
+    square = square > 0.0 ? square : slip->share * slip->share;
+    double size = 1.0 / sqrt(square);
     along[0] = x * size;
     along[1] = y * size;
     double trial = slip->share + fabs(way[0] * along[0] + way[1] * along[1]);
-    return trial > limit ? limit / trial : 1.0;
+    *left = limit / (trial > limit ? trial : limit);
 }
 
-/* A cell that slips: by what its elastic displacement lacks of the way, and it loses that times the
- * mean of the forces at the limit. */
-static inline void cell_slip(struct friction *friction, size_t i, double from,
-                             const struct cell_end *end, struct walk *walk)
+/* What the slip of a cell lost: what its elastic displacement lacks of the way times the mean of
+ * the forces at the limit. */
+EACH_CELL double slip_lost(const double over[3], const double moved[2], const struct cell_way *cell,
+                           const struct slip *slip, const double next[2])
 {
-    double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
-    const double *ratio = friction->ratio, *moved = walk->moved;
-    const struct slip slip = slip_begin((const double[2]){*x, *y}, from, end, moved);
-    double along[2];
-    double left = slip_direction(ratio, &slip, end, moved, along);
-    double next[2] = {end->share * along[0], end->share * along[1]};
-    double before = end->before > 0.0 ? 1.0 / end->before : 0.0;
-    double after = end->after == end->before ? before : end->after > 0.0 ? 1.0 / end->after : 0.0;
-    double slid[2] = {moved[0] + before * *x - after * next[0],
-                      moved[1] + before * *y - after * next[1]};
-    double lost =
-        over_ratio(friction->over_ratio, slip.at[0] + next[0], slip.at[1] + next[1], slid);
-    walk->lost += larger(0.5 * lost, 0.0);
-    for (int j = 0; j < 2; j++)
-        walk->turning[j] += end->stiffness * left * (1.0 - along[j] * along[j]);
-    *x = next[0];
-    *y = next[1];
+    double x = moved[0] + cell->before * cell->x - cell->after * next[0];
+    double y = moved[1] + cell->before * cell->y - cell->after * next[1];
+    double sum_x = slip->x + next[0], sum_y = slip->y + next[1];
+    double lost = 0.5 * (sum_x * (over[0] * x + over[1] * y) + sum_y * (over[1] * x + over[2] * y));
+    return lost > 0.0 ? lost : 0.0;
 }
 
-/* Whether a trial force goes on along the force before, and the slip along it: always in a plane.
- */
-static inline bool is_straight(const double ratio[3], const double trial[2], double x, double y,
-                               double share)
+/* One cell that had a share > 0: sticks, or slips at its limit. */
+EACH_CELL struct cell_end cell_follow(const double ratio[3], const double over[3],
+                                      const double moved[2], const struct cell_way *cell)
 {
-    double near = STRAIGHT * share * share;
-    if (!(fabs(trial[0] * y - trial[1] * x) <= near))
-        return false;
-    double apart = fabs(ratio[0] - ratio[2]);
-    bool isotropic = larger(apart, fabs(ratio[1])) <= STRAIGHT;
-    bool by_axes = fabs(ratio[1]) <= STRAIGHT * apart;
-    return isotropic || (by_axes && fabs(trial[0] * trial[1]) <= near);
+    double way[2] = {cell->stiffness * moved[0], cell->stiffness * moved[1]};
+    double trial[2] = {cell->x + way[0], cell->y + way[1]};
+    double excess = trial[0] * trial[0] + trial[1] * trial[1] - cell->share * cell->share;
+    const struct slip slip = slip_begin(cell, way);
+    double along[2], left;
+    slip_direction(ratio, &slip, cell->share, way, along, &left);
+    double next[2] = {cell->share * along[0], cell->share * along[1]};
+    double lost = slip_lost(over, moved, cell, &slip, next);
+    double turning = cell->stiffness * left;
+    return (struct cell_end){
+        .x = excess > 0.0 ? next[0] : trial[0],
+        .y = excess > 0.0 ? next[1] : trial[1],
+        .lost = excess > 0.0 ? lost : 0.0,
+        .stuck = excess > 0.0 ? 0.0 : cell->stiffness,
+        .turning = {excess > 0.0 ? turning * (1.0 - along[0] * along[0]) : 0.0,
+                    excess > 0.0 ? turning * (1.0 - along[1] * along[1]) : 0.0},
+    };
 }
 
-/* As cell_slip where it is straight. */
-static inline void cell_slip_straight(struct friction *friction, size_t i,
-                                      const struct cell_end *end, const double trial[2],
-                                      struct walk *walk)
+/* A cell that has just begun to touch has no direction yet: that of its way, in rounds, each of
+ * which leaves its part of kappa's anisotropy. */
+static struct cell_end cell_from_rest(const double ratio[3], const double over[3],
+                                      const double moved[2], const struct cell_way *cell)
 {
-    double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
-    const double *moved = walk->moved;
-    double inverse = 1.0 / sqrt(trial[0] * trial[0] + trial[1] * trial[1]);
-    double along[2] = {trial[0] * inverse, trial[1] * inverse};
-    double before = *x * along[0] + *y * along[1];
-    double slip = moved[0] * along[0] + moved[1] * along[1];
-    slip += end->before > 0.0 ? before / end->before : 0.0;
-    slip -= end->after > 0.0 ? end->share / end->after : 0.0;
-    if (slip > 0.0)
-        walk->lost += 0.5 * (end->share + larger(before, 0.0)) * slip *
-                      over_ratio(friction->over_ratio, along[0], along[1], along);
-    double across = end->stiffness * end->share * inverse;
-    walk->turning[0] += across * along[1] * along[1];
-    walk->turning[1] += across * along[0] * along[0];
-    *x = end->share * along[0];
-    *y = end->share * along[1];
-}
-
-/* One cell: sticks, or slips at its limit. */
-static inline void cell_walk(struct friction *friction, size_t i, const struct cell_end *end,
-                             struct walk *walk)
-{
-    double *x = &friction->traction[0][i], *y = &friction->traction[1][i];
-    const double *moved = walk->moved;
-    double share = end->share, from = friction->share[i];
-    double trial[2] = {*x + end->stiffness * moved[0], *y + end->stiffness * moved[1]};
-    friction->share[i] = share;
-    if (trial[0] * trial[0] + trial[1] * trial[1] <= share * share) {
-        walk->stuck += end->stiffness;
-        *x = trial[0];
-        *y = trial[1];
-    } else if (is_straight(friction->ratio, trial, *x, *y, share)) {
-        cell_slip_straight(friction, i, end, trial, walk);
-    } else if (share > 0.0) {
-        cell_slip(friction, i, from, end, walk);
-    } else {
-        *x = *y = 0.0;
+    const double way[2] = {cell->stiffness * moved[0], cell->stiffness * moved[1]};
+    double turned[2] = {way[0], way[1]}, n[2] = {0.0, 0.0};
+    double size = sqrt(way[0] * way[0] + way[1] * way[1]);
+    if (size <= cell->share)
+        return (struct cell_end){.x = way[0], .y = way[1], .stuck = cell->stiffness};
+    for (int round = 0; round < 4 && size > 0.0; round++) {
+        n[0] = turned[0] / size;
+        n[1] = turned[1] / size;
+        memcpy(turned, way, sizeof turned);
+        across_kappa(ratio, n, 1.0, cell->share, turned);
+        size = sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
     }
-    walk->force[0] += *x;
-    walk->force[1] += *y;
+    n[0] = size > 0.0 ? turned[0] / size : n[0];
+    n[1] = size > 0.0 ? turned[1] / size : n[1];
+    const struct slip slip = {.share = 0.0, .left = 1.0};
+    const double next[2] = {cell->share * n[0], cell->share * n[1]};
+    double limit = 0.5 * cell->share, trial = larger(size, limit);
+    double turning = trial > 0.0 ? cell->stiffness * limit / trial : 0.0;
+    return (struct cell_end){
+        .x = next[0],
+        .y = next[1],
+        .lost = slip_lost(over, moved, cell, &slip, next),
+        .turning = {turning * (1.0 - n[0] * n[0]), turning * (1.0 - n[1] * n[1])},
+    };
+}
+
+/* A cell of a history along one line. */
+static struct cell_end cell_on_line(const double over[3], double moved, const struct cell_way *cell)
+{
+    double trial = cell->x + cell->stiffness * moved;
+    double next = larger(-cell->share, smaller(trial, cell->share));
+    if (next == trial)
+        return (struct cell_end){.x = next, .stuck = cell->stiffness};
+    double slip = moved + cell->before * cell->x - cell->after * next;
+    double force = next + (next > 0.0 ? larger(cell->x, 0.0) : smaller(cell->x, 0.0));
+    return (struct cell_end){.x = next, .lost = 0.5 * over[0] * larger(force * slip, 0.0)};
+}
+
+/* A cell that opens or closes on the way. */
+static void cell_walk(struct friction *friction, size_t i, const struct cell_way *cell,
+                      struct walk *walk)
+{
+    struct cell_end end = {.x = 0.0};
+    const double *ratio = friction->ratio, *over = friction->over_ratio, *moved = walk->moved;
+    if (friction->line)
+        end = cell_on_line(over, moved[0], cell);
+    else if (cell->share > 0.0)
+        end = cell->from > 0.0 ? cell_follow(ratio, over, moved, cell)
+                               : cell_from_rest(ratio, over, moved, cell);
+    friction->share[i] = cell->share;
+    friction->traction[0][i] = end.x;
+    friction->traction[1][i] = end.y;
+    walk->force[0] += end.x;
+    walk->force[1] += end.y;
+    walk->lost += end.lost;
+    walk->stuck += end.stuck;
+    for (int j = 0; j < 2; j++)
+        walk->turning[j] += end.turning[j];
 }
 
 /* The part of a cell that opens gives up its part of the force, whose elastic energy is lost. */
@@ -569,6 +573,46 @@ VECTOR_CLONES static void walk_line(struct friction *friction, size_t count, dou
     }
 }
 
+/* The same of a history in the plane. */
+VECTOR_CLONES static void walk_plane(struct friction *friction, size_t count, double indentation,
+                                     struct walk *walk)
+{
+    const double ratio[3] = {friction->ratio[0], friction->ratio[1], friction->ratio[2]};
+    const double over[3] = {friction->over_ratio[0], friction->over_ratio[1],
+                            friction->over_ratio[2]};
+    const double moved[2] = {walk->moved[0], walk->moved[1]};
+    for (size_t first = 0; first < count; first += STRIP) {
+        double stuck[STRIP], lost[STRIP], turning[2][STRIP];
+        size_t n = count - first < STRIP ? count - first : STRIP;
+        const double *restrict base = friction->base + first;
+        const double *restrict stiffness = friction->stiffness + first;
+        const double *restrict compliance = friction->compliance + first;
+        double *restrict share = friction->share + first;
+        double *restrict x = friction->traction[0] + first;
+        double *restrict y = friction->traction[1] + first;
+#pragma GCC ivdep /* more arrays than a compiler tells apart while it runs */
+        for (size_t i = 0; i < n; i++) {
+            const struct cell_way cell = {
+                x[i],         y[i],          share[i],     base[i] + stiffness[i] * indentation,
+                stiffness[i], compliance[i], compliance[i]};
+            const struct cell_end end = cell_follow(ratio, over, moved, &cell);
+            share[i] = cell.share;
+            x[i] = end.x;
+            y[i] = end.y;
+            lost[i] = end.lost;
+            stuck[i] = end.stuck;
+            turning[0][i] = end.turning[0];
+            turning[1][i] = end.turning[1];
+        }
+        walk->force[0] += sum_of(x, n);
+        walk->force[1] += sum_of(y, n);
+        walk->lost += sum_of(lost, n);
+        walk->stuck += sum_of(stuck, n);
+        walk->turning[0] += sum_of(turning[0], n);
+        walk->turning[1] += sum_of(turning[1], n);
+    }
+}
+
 /* A way leaves the line by an elastic force across it that is more than rounding of the limit. */
 static bool stays_on_line(const struct friction *friction, const struct normal *to,
                           const struct walk *walk)
@@ -589,28 +633,64 @@ static void walk_cells(struct friction *friction, const struct normal *from,
         friction->reached = last + 1;
     /* closed throughout, before and after */
     friction->line = stays_on_line(friction, to, walk);
-    if (friction->line)
-        walk_line(friction, first, to->indentation, walk);
-    for (size_t i = friction->line ? first : 0; i < first; i++) {
-        double stiffness = friction->stiffness[i];
-        const struct cell_end end = {friction->base[i] + stiffness * to->indentation, stiffness,
-                                     stiffness, stiffness};
-        cell_walk(friction, i, &end, walk);
-    }
+    (friction->line ? walk_line : walk_plane)(friction, first, to->indentation, walk);
     /* those that open or close: on one branch a share is the integral of its stiffness, which gives
      * the mean over the way */
     for (size_t i = first; i <= last; i++) {
-        double before = cell_stiffness(friction, i, from);
-        struct cell_end end = {.share = cell_share(friction, i, to),
-                               .after = cell_stiffness(friction, i, to)};
-        end.before = smaller(before, end.after);
-        end.stiffness = yielded    ? 0.5 * (before + end.after)
-                        : is_short ? end.after
-                                   : (end.share - friction->share[i]) / way;
-        if (end.after < before)
-            cell_open(friction, i, before, end.after, walk);
-        cell_walk(friction, i, &end, walk);
+        double before = cell_stiffness(friction, i, from), after = cell_stiffness(friction, i, to);
+        double share = cell_share(friction, i, to);
+        double mean = yielded    ? 0.5 * (before + after)
+                      : is_short ? after
+                                 : (share - friction->share[i]) / way;
+        if (after < before)
+            cell_open(friction, i, before, after, walk);
+        before = smaller(before, after);
+        const struct cell_way cell = {friction->traction[0][i],
+                                      friction->traction[1][i],
+                                      friction->share[i],
+                                      share,
+                                      mean,
+                                      before > 0.0 ? 1.0 / before : 0.0,
+                                      after > 0.0 ? 1.0 / after : 0.0};
+        cell_walk(friction, i, &cell, walk);
     }
+}
+
+/* The direction of the first way from the touch, where the stiffness is the same in all: cells that
+ * go on along it are on a line. */
+static void set_axis(struct friction *friction, const double moved[2])
+{
+    double size = sqrt(moved[0] * moved[0] + moved[1] * moved[1]);
+    friction->axis[0] = size > 0.0 && friction->isotropic ? moved[0] / size : 1.0;
+    friction->axis[1] = size > 0.0 && friction->isotropic ? moved[1] / size : 0.0;
+}
+
+/* From the tangents to the axis and the direction across it. */
+static void to_axis(const struct friction *friction, const double of[2], double at[2])
+{
+    const double *axis = friction->axis;
+    at[0] = axis[0] * of[0] + axis[1] * of[1];
+    at[1] = axis[0] * of[1] - axis[1] * of[0];
+}
+
+/* Times the coefficient, and back. */
+static void from_axis(const struct friction *friction, const double at[2], double force[2])
+{
+    const double *axis = friction->axis;
+    force[0] = friction->coefficient * (axis[0] * at[0] - axis[1] * at[1]);
+    force[1] = friction->coefficient * (axis[1] * at[0] + axis[0] * at[1]);
+}
+
+/* The slope of the force by the displacement along each tangent. */
+static void find_slopes(struct friction *friction, const struct walk *walk)
+{
+    const double *kappa = friction->ratio, *axis = friction->axis;
+    double first = axis[0] * axis[0], second = axis[1] * axis[1];
+    friction->stuck = walk->stuck;
+    friction->resists[0] =
+        kappa[0] * (walk->stuck + first * walk->turning[0] + second * walk->turning[1]);
+    friction->resists[1] =
+        kappa[2] * (walk->stuck + second * walk->turning[0] + first * walk->turning[1]);
 }
 
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
@@ -628,8 +708,10 @@ void friction_walk(struct friction *friction, double indentation, const double d
     double scale = part / friction->coefficient;
     double x = scale * (displacement[0] - friction->displacement[0]);
     double y = scale * (displacement[1] - friction->displacement[1]);
-    walk.moved[0] = kappa[0] * x + kappa[1] * y;
-    walk.moved[1] = kappa[1] * x + kappa[2] * y;
+    const double moved[2] = {kappa[0] * x + kappa[1] * y, kappa[1] * x + kappa[2] * y};
+    if (friction->reached == 0)
+        set_axis(friction, moved);
+    to_axis(friction, moved, walk.moved);
     if (before > 0.0 || indentation > 0.0) {
         const struct normal from = normal_at(friction, before);
         bool yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);
@@ -638,24 +720,20 @@ void friction_walk(struct friction *friction, double indentation, const double d
         friction->normal = to.force;
     }
     friction->indentation = indentation;
-    friction->stuck = walk.stuck;
-    for (int j = 0; j < 2; j++)
-        friction->resists[j] = kappa[2 * j] * (walk.stuck + walk.turning[j]);
+    find_slopes(friction, &walk);
     friction->lost += friction->coefficient * friction->coefficient * walk.lost;
-    for (int j = 0; j < 2; j++) {
-        friction->displacement[j] = displacement[j];
-        force[j] = friction->coefficient * walk.force[j];
-    }
+    friction->displacement[0] = displacement[0];
+    friction->displacement[1] = displacement[1];
+    from_axis(friction, walk.force, force);
 }
 
 void friction_force(const struct friction *friction, double force[2])
 {
-    for (int j = 0; j < 2; j++) {
-        double sum = 0.0;
+    double sum[2] = {0.0, 0.0};
+    for (int j = 0; j < 2; j++)
         for (size_t i = 0; i < friction->reached; i++)
-            sum += friction->traction[j][i];
-        force[j] = friction->coefficient * sum;
-    }
+            sum[j] += friction->traction[j][i];
+    from_axis(friction, sum, force);
 }
 
 double friction_stored(const struct friction *friction)

@@ -49,8 +49,9 @@ struct friction {
     size_t placed;                 /* and the cells whose edges lie on it */
     /* the history: at the indentation (m; <= 0: open), the share (N) and the tangential force over
      * mu (N) of each cell by direction; displacement since the touch, m */
-    double *share, *traction[2];
-    bool line; /* all along the first direction */
+    double *share, *traction[2]; /* the force along the axis and across it */
+    double axis[2];       /* along the tangents, unit: the first where kappa has directions */
+    bool isotropic, line; /* kappa is a number; all along the axis */
     double indentation;
     double displacement[2];
     double normal;     /* force of the law there, N */
