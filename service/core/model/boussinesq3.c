@@ -84,6 +84,51 @@ void boussinesq3_field(const struct boussinesq3 *load, const double x[3], double
     }
 }
 
+/* gradient and second derivatives of t.x/s, s = R + z; x being seen from the point */
+static void cerruti_potential(const double x[3], const double e[3], const double t[3],
+                              double gradient[3], double second[3][3])
+{
+    double distance = norm3(x), sum = distance + dot3(x, e), share = dot3(t, x) / sum, slope[3];
+    for (int i = 0; i < 3; i++) {
+        slope[i] = (x[i] / distance + e[i]) / sum; /* of ln s */
+        gradient[i] = t[i] / sum - share * slope[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double bend = ((i == j) - x[i] * x[j] / (distance * distance)) / (distance * sum);
+            second[i][j] = share * (2.0 * slope[i] * slope[j] - bend) -
+                           (t[i] * slope[j] + slope[i] * t[j]) / sum;
+        }
+}
+
+void cerruti3_field(const struct boussinesq3 *load, const double along[3], const double x[3],
+                    double displacement[3], double stress[6])
+{
+    const double *e = load->inward;
+    double poisson = load->poisson, side = 1.0 - 2.0 * poisson;
+    double r[3], gradient[3], second[3][3], bent[3];
+    sub3(x, load->point, r);
+    cerruti_potential(r, e, along, gradient, second);
+    double inverse = 1.0 / norm3(r), cube = inverse * inverse * inverse, lever = dot3(along, r);
+
+    if (displacement) {
+        double scale = (1.0 + poisson) / (2.0 * M_PI * load->young), depth = dot3(e, gradient);
+        for (int i = 0; i < 3; i++)
+            displacement[i] = scale * (lever * r[i] * cube + along[i] * inverse +
+                                       side * (gradient[i] - 2.0 * depth * e[i]));
+    }
+
+    /* Hooke's law; the dilatation is -2 (1 - 2 nu) x/R^3 */
+    for (int j = 0; j < 3; j++)
+        bent[j] = e[0] * second[0][j] + e[1] * second[1][j] + e[2] * second[2][j];
+    for (int k = 0; stress && k < 6; k++) {
+        int i = ROW[k], j = COLUMN[k];
+        double own = (i == j ? lever * cube * side : 0.0) -
+                     3.0 * lever * r[i] * r[j] * cube * inverse * inverse;
+        stress[k] = (own + side * (second[i][j] - e[i] * bent[j] - e[j] * bent[i])) / (2.0 * M_PI);
+    }
+}
+
 void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3], double stress[6])
 {
     double from_end[3], gradient[3] = {0.0}, second[6] = {0.0};

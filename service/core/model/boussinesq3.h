@@ -33,6 +33,13 @@ void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3],
 /* The part that the reach adds to the displacement of the loaded point along the load, m/N. */
 double boussinesq3_added_displacement(const struct boussinesq3 *load);
 
+/* The same of a point load of 1 N along the surface, `along` (unit, normal to the load's inward
+ * normal; Cerruti; Johnson, section 3.6), of infinite reach: with s = R + z and x = along.x,
+ *
+ *     4 pi mu u = x x_vector / R^3 + along / R + (1 - 2 nu) (1 - 2 e e^T) grad (x / s). */
+void cerruti3_field(const struct boussinesq3 *load, const double along[3], const double x[3],
+                    double displacement[3], double stress[6]);
+
 /* t = s n */
 static inline void boussinesq3_traction(const double s[6], const double n[3], double t[3])
 {

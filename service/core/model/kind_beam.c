@@ -314,6 +314,4 @@ static const struct body_kind strip_kind = {
     BEAM_MEMBERS,
     BOX_VIBRATION,
     .box = mesh_family_box,
-    .why_no_friction = "it vibrates as a block, whose flexibility along the surface is not known: "
-                       "state its shear_factor, and it is computed as a beam",
 };

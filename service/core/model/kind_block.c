@@ -111,7 +111,5 @@ const struct body_kind block_kind = {
     .solid = block_solid,
     .box = mesh_family_box,
     BOX_VIBRATION,
-    .why_no_friction = "its flexibility along the surface is not known: declare it as rigid: "
-                       "true, with its vibration left out",
     .describe = block_describe,
 };

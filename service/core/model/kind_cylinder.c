@@ -74,7 +74,5 @@ const struct body_kind cylinder_kind = {
     .solid = cylinder_solid,
     .box = cylinder_box,
     BOX_VIBRATION,
-    .why_no_friction = "its flexibility along the surface is not known: declare it as rigid: "
-                       "true, with its vibration left out",
     .describe = cylinder_describe,
 };

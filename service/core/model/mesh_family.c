@@ -48,7 +48,8 @@ void mesh_family_load(const struct body *body, const struct site *site, const do
                       bool tangential, struct site_load *load)
 {
     struct family_load *family = &load->family[0];
-    if (tangential || !body_is_flexible(body))
+    (void)tangential;
+    if (!body_is_flexible(body))
         return;
     double longest = mesh_ratio_of(body).size;
     family->acts = true;
@@ -343,6 +344,20 @@ static struct mesh_push push_of(const struct mesh_load *load)
     return push;
 }
 
+static bool same_place(const struct mesh_load *i, const struct mesh_load *j)
+{
+    return i->all_ways && j->all_ways && i->axis == j->axis && i->side == j->side &&
+           i->face == j->face && memcmp(i->point, j->point, sizeof i->point) == 0;
+}
+
+double mesh_load_between(const struct mesh_load *i, const struct mesh_load *j)
+{
+    const double *t = i->tensor, *a = i->direction, *b = j->direction;
+    return t[0] * a[0] * b[0] + t[1] * a[1] * b[1] + t[2] * a[2] * b[2] +
+           t[3] * (a[0] * b[1] + a[1] * b[0]) + t[4] * (a[1] * b[2] + a[2] * b[1]) +
+           t[5] * (a[2] * b[0] + a[0] * b[2]);
+}
+
 /* Box: at one place the flexibility of all modes, between two places the sum over its own modes.
  * Mesh: at one place the regular flexibility and that of the removed modes; between two places the
  * same from the file's sites, or without sites the sum over the modes, which converges there as no
@@ -352,6 +367,8 @@ static double mesh_family_compliance(const struct body *body, size_t family,
 {
     (void)family;
     const struct mesh_body *mesh = body->mesh;
+    if (i != j && same_place(&i->mesh, &j->mesh))
+        return mesh_load_between(&i->mesh, &j->mesh);
     if (body->ritz)
         return i == j ? i->mesh.flexibility : held_by(body, 0, mesh_family_most(body), i, j);
     double removed = held_by(body, 0, mesh->removed, i, j);

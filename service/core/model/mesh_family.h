@@ -9,6 +9,7 @@
 #include "model/body_kind.h"
 #include "model/mesh_body.h"
 
+struct mesh_load;
 struct ritz_shape;
 struct site;
 struct site_load;
@@ -20,6 +21,9 @@ extern const struct mode_family mesh_family;
 void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
                       bool tangential, struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
+
+/* The regular flexibility between two loads at one place of a body whose tensor is known. */
+double mesh_load_between(const struct mesh_load *i, const struct mesh_load *j);
 
 /* Members of a kind that vibrates as its `box`, and the keys for that. */
 extern const struct mode_family *const mesh_family_alone[1];

@@ -20,6 +20,9 @@ struct mesh_load {
     double point[3];                    /* mesh's frame and size, m */
     double flexibility;                 /* regular, of the body's own size and material, m/N */
     double unknown;                     /* uncertainty of the flexibility, m/N */
+    bool all_ways;                      /* `tensor` is known: with friction */
+    double tensor[6];  /* regular flexibility of the place for forces in all directions: xx yy zz xy
+                        * yz zx of the body's frame, m/N */
     double slope, cut; /* box: its change with the logarithm of the contact's radius from `cut` (m)
                         * down, m/N; 0: none */
 };

@@ -64,8 +64,20 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
  * radius. NAN: out of memory. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3]);
 
+/* The same for forces in all directions: a symmetric tensor xx yy zz xy yz zx in the body's frame
+ * (the displacement of the point is tensor times force), beyond those of a half-space under a
+ * normal and a tangential force. Of the normal's part it is ritz_flexibility. False: out of memory.
+ */
+bool ritz_tensor(const struct ritz *ritz, int axis, int side, const double point[3],
+                 double tensor[6]);
+
 static const double RITZ_CUT = 0.02; /* diameters */
 double ritz_slope(const struct ritz *ritz);
+
+/* That of the tensor, times `logarithm`, added to it in the two directions along a cylinder's side.
+ */
+void ritz_tensor_narrow(const struct ritz *ritz, const double point[3], double logarithm,
+                        double tensor[6]);
 
 /* Errors of it where other faces are nearer than the polynomials resolve: the part due to the
  * opposite face, which is to be added, and the uncertainty due to all. */

@@ -22,7 +22,8 @@ struct ritz_box {
     size_t next_place;
     struct place {
         int axis, side; /* 0: none yet */
-        double point[3], flexibility;
+        bool all_ways;  /* it is the tensor; else the flexibility */
+        double point[3], flexibility, tensor[6];
     } places[PLACES];
 };
 
@@ -202,34 +203,67 @@ const struct ritz *ritz_box_vibration(const struct ritz_box *box)
 }
 
 /* With the store locked. */
-static const struct place *box_find_place(const struct ritz_box *box, int axis, int side,
-                                          const double point[3])
+static const struct place *box_find_place(const struct ritz_box *box, const struct place *like)
 {
     for (size_t i = 0; i < PLACES; i++) {
         const struct place *place = &box->places[i];
-        if ((place->axis || place->side) && place->axis == axis && place->side == side &&
-            memcmp(place->point, point, sizeof place->point) == 0)
+        if ((place->axis || place->side) && place->all_ways == like->all_ways &&
+            place->axis == like->axis && place->side == like->side &&
+            memcmp(place->point, like->point, sizeof place->point) == 0)
             return place;
     }
     return NULL;
 }
 
+/* Writes down a place's numbers. */
+static void box_add_place(struct ritz_store *store, struct ritz_box *box, const struct place *known)
+{
+    store_take(store);
+    box->places[box->next_place++ % PLACES] = *known;
+    store_give_back(store);
+}
+
+/* Completes a place by what is known of it; false: nothing. */
+static bool box_know_place(struct ritz_store *store, const struct ritz_box *box,
+                           struct place *place)
+{
+    store_take(store);
+    const struct place *known = box_find_place(box, place);
+    if (known)
+        *place = *known;
+    store_give_back(store);
+    return known != NULL;
+}
+
+static struct place place_make(int axis, int side, const double point[3])
+{
+    return (struct place){.axis = axis, .side = side, .point = {point[0], point[1], point[2]}};
+}
+
 double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                             const double point[3])
 {
-    store_take(store);
-    const struct place *known = box_find_place(box, axis, side, point);
-    double flexibility = known ? known->flexibility : 0.0;
-    store_give_back(store);
-    if (known)
-        return flexibility;
-    flexibility = ritz_flexibility(box->ritz, axis, side, point);
-    store_take(store);
-    struct place *place = &box->places[box->next_place++ % PLACES];
-    *place = (struct place){.axis = axis, .side = side, .flexibility = flexibility};
-    memcpy(place->point, point, sizeof place->point);
-    store_give_back(store);
-    return flexibility;
+    struct place place = place_make(axis, side, point);
+    if (box_know_place(store, box, &place))
+        return place.flexibility;
+    place.flexibility = ritz_flexibility(box->ritz, axis, side, point);
+    box_add_place(store, box, &place);
+    return place.flexibility;
+}
+
+bool ritz_box_tensor(struct ritz_store *store, struct ritz_box *box, int axis, int side,
+                     const double point[3], double tensor[6])
+{
+    struct place place = place_make(axis, side, point);
+    bool good = true;
+    place.all_ways = true;
+    if (!box_know_place(store, box, &place)) {
+        good = ritz_tensor(box->ritz, axis, side, point, place.tensor);
+        if (good)
+            box_add_place(store, box, &place);
+    }
+    memcpy(tensor, place.tensor, sizeof place.tensor);
+    return good;
 }
 
 unsigned long ritz_store_computed(struct ritz_store *store)

@@ -34,6 +34,10 @@ const struct ritz *ritz_box_vibration(const struct ritz_box *box);
 double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                             const double point[3]);
 
+/* The same of ritz_tensor. False: out of memory. */
+bool ritz_box_tensor(struct ritz_store *store, struct ritz_box *box, int axis, int side,
+                     const double point[3], double tensor[6]);
+
 /* Number of vibrations computed so far. */
 unsigned long ritz_store_computed(struct ritz_store *store);
 

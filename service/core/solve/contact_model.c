@@ -334,9 +334,7 @@ void contact_model_explain(const struct problem *problem, const struct impact_ou
         explain_elastic(problem, outcome, text);
 }
 
-/* Contact radius (m) of a collision of the rigid masses at the fastest approach: the correction
- * depends on its logarithm at most. */
-static double patch_radius(const struct problem *problem, size_t c)
+double contact_patch_radius(const struct problem *problem, size_t c)
 {
     const struct hertz_contact *hertz = &problem->hertz[c];
     size_t n = problem->contact_count;
@@ -389,12 +387,12 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
         *compliance = 0.0;
         if (load->slope != 0.0) {
             problem->compliance.by_speed = true;
-            *compliance = load->slope * log(load->cut / patch_radius(problem, c));
+            *compliance = load->slope * log(load->cut / contact_patch_radius(problem, c));
         }
         if (body->mesh && spot->slope != 0.0 && body->mesh->cut > 0.0) {
             problem->compliance.by_speed = true;
             *compliance =
-                spot->slope * log(body->scale * body->mesh->cut / patch_radius(problem, c));
+                spot->slope * log(body->scale * body->mesh->cut / contact_patch_radius(problem, c));
         }
         return true;
     }
@@ -407,7 +405,7 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
         return true;
     double patch = 0.0;
     if (form == SOLID_BALL) {
-        patch = patch_radius(problem, c);
+        patch = contact_patch_radius(problem, c);
         problem->compliance.by_speed = true;
     }
     return prepared_matched_get(problem->cache, body, patch, compliance);

@@ -57,6 +57,10 @@ void contact_model_explain(const struct problem *problem, const struct impact_ou
 enum percuss_status compliance_choose(struct problem *problem, enum percuss_compliance otherwise,
                                       struct fault *fault);
 
+/* Contact radius (m) of a collision of the rigid masses at the fastest approach: corrections depend
+ * on its logarithm at most. */
+double contact_patch_radius(const struct problem *problem, size_t c);
+
 /* Looks at a solution: true: the series compliance (residual flexibility included) is too negative
  * for the law's stiffness, |C| dF/dd >= 0.5: half-spaces are still now or, where they were, all
  * contacts' compliance is the half-space's. They are still too where the effort was spent on

@@ -223,19 +223,19 @@ static bool is_ringing(const struct body_state *state, size_t family, size_t mod
  * spend all energy, and together they push n times as hard. */
 static void find_least(const struct problem *problem, size_t modes, double *least)
 {
-    size_t n = problem->contact_count;
+    size_t n = problem_rows(problem);
     double share = LEFT_OUT * problem->tolerance / (4.0 * (double)(n * n * modes));
-    for (size_t c = 0; c < n; c++)
-        least[c] = share * problem->w[c * n + c];
+    for (size_t r = 0; r < n; r++)
+        least[r] = share * problem->row_w[r * n + r];
 }
 
-/* Whether a mode's participations, squared, are no more than that at any contact. */
-static bool hardly_moves(const struct scene_group *group, size_t contacts, size_t k,
+/* Whether a mode's participations, squared, are no more than that in any row. */
+static bool hardly_moves(const struct scene_group *group, size_t rows, size_t k,
                          const double *least)
 {
-    for (size_t c = 0; c < contacts; c++) {
-        const double *row = group->participation[c];
-        if (row && !(row[k] * row[k] <= least[c]))
+    for (size_t r = 0; r < rows; r++) {
+        const double *row = group->participation[r];
+        if (row && !(row[k] * row[k] <= least[r]))
             return false;
     }
     return true;
@@ -251,8 +251,8 @@ static bool take_group(const struct problem *problem, const size_t *which, size_
     group->set = (*source)->set;
     group->count = count;
     group->stride = group->set->stride;
-    for (size_t c = 0; c < problem->contact_count; c++) {
-        const double *all = group->participation[c];
+    for (size_t r = 0; r < problem_rows(problem); r++) {
+        const double *all = group->participation[r];
         if (!all)
             continue;
         double *row = arena_take(problem->arena, group->stride + 1, sizeof *row);
@@ -260,7 +260,7 @@ static bool take_group(const struct problem *problem, const size_t *which, size_
             return false;
         for (size_t i = 0; i < count; i++)
             row[i] = all[which[i]];
-        group->participation[c] = row;
+        group->participation[r] = row;
     }
     return true;
 }
@@ -269,12 +269,13 @@ bool mode_choice_leave_out(const struct problem *problem, const struct body_stat
                            size_t family, const struct prepared_group **source,
                            struct scene_group *group)
 {
-    double least[PERCUSS_MAX_CONTACTS];
+    double least[SCENE_MOST_ROWS];
+    size_t rows = problem_rows(problem);
     find_least(problem, group->count, least);
     /* how many hardly move */
     size_t few = 0;
     for (size_t k = 0; k < group->count; k++)
-        few += hardly_moves(group, problem->contact_count, k, least);
+        few += hardly_moves(group, rows, k, least);
     if ((double)few < WORTH * (double)group->count || few == 0)
         return true;
     /* those that do, or vibrate */
@@ -283,8 +284,7 @@ bool mode_choice_leave_out(const struct problem *problem, const struct body_stat
         return false;
     size_t count = 0;
     for (size_t k = 0; k < group->count; k++)
-        if (!hardly_moves(group, problem->contact_count, k, least) ||
-            is_ringing(state, family, (*source)->mode[k]))
+        if (!hardly_moves(group, rows, k, least) || is_ringing(state, family, (*source)->mode[k]))
             which[count++] = k;
     return count == group->count || take_group(problem, which, count, source, group);
 }

@@ -516,14 +516,29 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_s
     return ritz_box_vibration(held->box);
 }
 
+/* The box that holds a vibration; NULL: none of the cache's. */
+static struct ritz_box *box_of(const struct prepared_cache *cache, const struct ritz *ritz)
+{
+    const struct held *held = cache->held;
+    while (held && ritz_box_vibration(held->box) != ritz)
+        held = held->next;
+    return held ? held->box : NULL;
+}
+
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
                                  int side, const double point[3])
 {
-    struct held *held = cache->held;
-    while (held && ritz_box_vibration(held->box) != ritz)
-        held = held->next;
-    return held ? ritz_box_flexibility(cache->boxes, held->box, axis, side, point)
-                : ritz_flexibility(ritz, axis, side, point);
+    struct ritz_box *box = box_of(cache, ritz);
+    return box ? ritz_box_flexibility(cache->boxes, box, axis, side, point)
+               : ritz_flexibility(ritz, axis, side, point);
+}
+
+bool prepared_ritz_tensor(struct prepared_cache *cache, const struct ritz *ritz, int axis, int side,
+                          const double point[3], double tensor[6])
+{
+    struct ritz_box *box = box_of(cache, ritz);
+    return box ? ritz_box_tensor(cache->boxes, box, axis, side, point, tensor)
+               : ritz_tensor(ritz, axis, side, point, tensor);
 }
 
 /* Asks for the compliance at an octave. False: out of memory. */

@@ -93,6 +93,8 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_s
 /* As ritz_flexibility, of a vibration from prepared_ritz_get; that of the last places is cached. */
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
                                  int side, const double point[3]);
+bool prepared_ritz_tensor(struct prepared_cache *cache, const struct ritz *ritz, int axis, int side,
+                          const double point[3], double tensor[6]);
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the

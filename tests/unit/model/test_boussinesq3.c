@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
- * stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
+/* Mirrors service/core/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another
+ * frame; stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
 #include "check.h"
 #include "fe/boussinesq.h"
 #include "model/boussinesq3.h"
@@ -83,6 +83,63 @@ static void stress_follows_displacement_in_equilibrium(void **state)
     }
 }
 
+/* Cerruti's: the same of it, and a free surface; a hemisphere holds the force of 1 N. */
+static void along_the_surface(void **state)
+{
+    (void)state;
+    static const double STEP = 1e-4;
+    static const int INDEX[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    double shear = LOAD.young / (2.0 * (1.0 + LOAD.poisson));
+    double lame = 2.0 * shear * LOAD.poisson / (1.0 - 2.0 * LOAD.poisson);
+    for (size_t p = 0; p < 3; p++) {
+        double x[3], s[6], gradient[3][3], force[3] = {0.0, 0.0, 0.0}, across[3], t[3];
+        place(PLACES[p][0], PLACES[p][1], x);
+        cross3(LOAD.inward, ALONG, across);
+        add_scaled3(0.4, across, x);
+        cerruti3_field(&LOAD, ALONG, x, NULL, s);
+        for (int j = 0; j < 3; j++) {
+            double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
+            double u_up[3], u_down[3], s_up[6], s_down[6];
+            up[j] += STEP;
+            down[j] -= STEP;
+            cerruti3_field(&LOAD, ALONG, up, u_up, s_up);
+            cerruti3_field(&LOAD, ALONG, down, u_down, s_down);
+            for (int i = 0; i < 3; i++) {
+                gradient[i][j] = (u_up[i] - u_down[i]) / (2.0 * STEP);
+                force[i] += (s_up[INDEX[i][j]] - s_down[INDEX[i][j]]) / (2.0 * STEP);
+            }
+        }
+        double dilatation = gradient[0][0] + gradient[1][1] + gradient[2][2];
+        for (int i = 0; i < 3; i++)
+            for (int j = i; j < 3; j++)
+                near(s[INDEX[i][j]],
+                     shear * (gradient[i][j] + gradient[j][i]) + (i == j ? lame * dilatation : 0.0),
+                     2e-6);
+        near(norm3(force), 0.0, 2e-5);
+        boussinesq3_traction(s, LOAD.inward, t);
+        near(norm3(t), 0.0, PLACES[p][0] == 0.0 ? 1e-14 : INFINITY);
+    }
+    /* midpoints of 100 x 100 parts: 1e-4 */
+    double sum[3] = {0.0}, across[3];
+    cross3(LOAD.inward, ALONG, across);
+    for (int i = 0; i < 100; i++)
+        for (int j = 0; j < 100; j++) {
+            double down = 0.5 * M_PI * (i + 0.5) / 100.0, about = 2.0 * M_PI * (j + 0.5) / 100.0;
+            double outward[3] = {0.0}, x[3], s[6], t[3];
+            add_scaled3(cos(down), LOAD.inward, outward);
+            add_scaled3(sin(down) * cos(about), ALONG, outward);
+            add_scaled3(sin(down) * sin(about), across, outward);
+            for (int k = 0; k < 3; k++)
+                x[k] = LOAD.point[k] + outward[k];
+            cerruti3_field(&LOAD, ALONG, x, NULL, s);
+            boussinesq3_traction(s, outward, t);
+            add_scaled3(sin(down) * M_PI * M_PI / 10000.0, t, sum);
+        }
+    near(dot3(sum, ALONG), -1.0, 1e-4);
+    near(dot3(sum, LOAD.inward), 0.0, 1e-4);
+    near(dot3(sum, across), 0.0, 1e-12);
+}
+
 /* on the outward line the field itself is infinite, with a reach it is not beyond it; the load is
  * the same, and the half-space's surface has tractions of 1/reach^2 */
 static void reach_ends_the_singular_line(void **state)
@@ -120,6 +177,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(is_the_axisymmetric_field_turned),
         cmocka_unit_test(stress_follows_displacement_in_equilibrium),
+        cmocka_unit_test(along_the_surface),
         cmocka_unit_test(reach_ends_the_singular_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,8 +76,7 @@ static void bodies_without_such_loads(void **state)
     }
 }
 
-/* Those that vibrate in three dimensions are named; rigid ones are not, nor those beyond the reach
- * of that vibration. */
+/* Meshes that vibrate are named; rigid ones are not, nor blocks, cylinders and strips. */
 static void bodies_that_may_have_friction(void **state)
 {
     (void)state;
@@ -87,17 +86,12 @@ static void bodies_that_may_have_friction(void **state)
                          .size = {0.1, 0.1, 0.1},
                          .tip_radius = INFINITY};
     assert_int_equal(body_complete(&block, NULL), PERCUSS_OK);
-    assert_non_null(strstr(body_why_no_friction(&block), "rigid: true"));
-    block.rigid = true;
-    assert_null(body_why_no_friction(&block));
-    block.rigid = false;
-    block.size[2] = 1e-4;
     assert_null(body_why_no_friction(&block));
     struct body cylinder = block;
     cylinder.kind = &cylinder_kind;
     cylinder.radius = cylinder.length = 0.1;
     assert_int_equal(body_complete(&cylinder, NULL), PERCUSS_OK);
-    assert_non_null(strstr(body_why_no_friction(&cylinder), "rigid: true"));
+    assert_null(body_why_no_friction(&cylinder));
     /* a mesh's modes count, not its kind */
     struct mesh_body mesh = {.mode_count = 3};
     struct body lump = {.kind = &mesh_kind, .mesh = &mesh};
@@ -109,7 +103,8 @@ static void bodies_that_may_have_friction(void **state)
     assert_null(body_why_no_friction(&strip));
     strip.shear_rule = SHEAR_ABSENT;
     assert_int_equal(body_complete(&strip, NULL), PERCUSS_OK);
-    assert_non_null(strstr(body_why_no_friction(&strip), "shear_factor"));
+    assert_null(body_why_no_friction(&strip));
+    /* as long as nobody lends its vibration */
     nothing_acts(&strip, &(struct site){.face = SITE_BEAM_SIDE, .point = {0.1, 0.0, 0.005}});
     struct body ball = {.kind = &sphere_kind, .radius = 0.1}, wall = {.kind = &half_space_kind};
     assert_true(!body_why_no_friction(&ball) && !body_why_no_friction(&wall));
