@@ -117,15 +117,6 @@ bool body_is_solid(const struct body *body)
     return (body->mesh || body->ritz) && body_is_flexible(body);
 }
 
-const char *body_why_no_friction(const struct body *body)
-{
-    const struct body_kind *kind = body->kind;
-    struct ritz_shape shape;
-    bool vibrates = body_can_vibrate(body) && (!kind->box || kind->box(body, &shape)) &&
-                    (!body->mesh || body->mesh->mode_count > 0);
-    return vibrates ? kind->why_no_friction : NULL;
-}
-
 bool body_bends(const struct body *body)
 {
     bool bends = false;

@@ -116,11 +116,6 @@ bool body_bends(const struct body *body);
 /* Whether it vibrates in three dimensions, its static flexibility included: a mesh or a box. */
 bool body_is_solid(const struct body *body);
 
-/* Why friction on it cannot be computed, and what to do, in words that follow a colon; NULL: it may
- * have friction. The static flexibility of a body that vibrates in three dimensions is known along
- * the normal alone. */
-const char *body_why_no_friction(const struct body *body);
-
 /* The material of its surface at a site: of a mesh of several, one of them. */
 struct material body_material_at(const struct body *body, const struct site *site);
 

@@ -140,10 +140,6 @@ struct body_kind {
     void (*load)(const struct body *body, const struct site *site, const double direction[3],
                  bool tangential, struct site_load *load);
 
-    /* Why there can be no friction on one that vibrates, and what to do, in words that follow a
-     * colon; NULL: there can be. */
-    const char *why_no_friction;
-
     /* Whether two families, *first and the next, are alike, so that they may be turned about the
      * body's axis into the plane of a load (bending_axes.h); NULL: none are. */
     bool (*alike)(const struct body *body, size_t *first);

@@ -283,7 +283,7 @@ static void mesh_kind_load(const struct body *body, const struct site *site,
 {
     struct family_load *family = &load->family[0];
     const struct mesh_body_face *face = &body->mesh->faces[site->spot.facet];
-    if (tangential || body->rigid || body->mesh->mode_count == 0)
+    if (body->rigid || body->mesh->mode_count == 0)
         return;
     family->acts = true;
     family->mesh.face = site->spot.facet;
@@ -292,6 +292,8 @@ static void mesh_kind_load(const struct body *body, const struct site *site,
     facet_shape(face->count, site->spot.u, site->spot.v, family->mesh.share, NULL, NULL);
     memcpy(family->mesh.direction, direction, sizeof family->mesh.direction);
     to_mesh(body, site->point, family->mesh.point);
+    if (tangential)
+        mesh_family_along(body, site, &family->mesh);
 }
 
 /* Moduli and densities of all materials scale as those of the first. */
@@ -376,8 +378,6 @@ const struct body_kind mesh_kind = {
     .families = mesh_family_alone,
     .family_count = 1,
     .load = mesh_kind_load,
-    .why_no_friction = "its flexibility along the surface is not known: declare it as rigid: "
-                       "true, with its vibration left out",
     .material_at = mesh_kind_material_at,
     .theory = mesh_kind_theory_name,
     .describe = mesh_kind_describe,

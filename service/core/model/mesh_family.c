@@ -344,6 +344,31 @@ static struct mesh_push push_of(const struct mesh_load *load)
     return push;
 }
 
+/* Half-spaces are singular to normal and tangential forces alike, and modes cut off either: what
+ * the modes up to a frequency leave of the tangential flexibility is that of the normal one to 0.83
+ * ... 1.27 in cubes, bars, plates, discs, on sides and ends (by ritz_tensor). */
+static const double LEFT_ALONG = 0.3;
+/* A curved surface changes the tangential flexibility with the logarithm of the contact's radius by
+ * up to (1 + nu) 9/4/pi of its mean curvature over E (ritz_tensor_narrow); contacts are this much
+ * narrower than `cut`, as a logarithm. */
+static const double NARROWER = 2.0;
+
+void mesh_family_along(const struct body *body, const struct site *site, struct mesh_load *load)
+{
+    const struct mesh_body *mesh = body->mesh;
+    const struct material *material = &mesh->materials[mesh->faces[load->face].material];
+    struct family_load along = {.acts = true, .mesh = *load}, normal = along;
+    scale3(-1.0, site->outward, normal.mesh.direction);
+    double left =
+        load->flexibility - held_by(body, mesh->removed, mesh->mode_count, &normal, &normal);
+    double young = material->young * mesh_ratio_of(body).young;
+    double bend = 0.5 * fabs(site->curvature[0] + site->curvature[4] + site->curvature[8]);
+    load->along = true;
+    load->flexibility = left + held_by(body, mesh->removed, mesh->mode_count, &along, &along);
+    load->unknown = LEFT_ALONG * fabs(left) +
+                    NARROWER * 2.25 * (1.0 + material->poisson) * bend / (M_PI * young);
+}
+
 static bool same_place(const struct mesh_load *i, const struct mesh_load *j)
 {
     return i->all_ways && j->all_ways && i->axis == j->axis && i->side == j->side &&
@@ -374,6 +399,9 @@ static double mesh_family_compliance(const struct body *body, size_t family,
     double removed = held_by(body, 0, mesh->removed, i, j);
     if (i == j)
         return i->mesh.flexibility + removed;
+    /* the file knows nothing of forces along the surface but its modes, whose sum converges */
+    if (i->mesh.along || j->mesh.along)
+        return removed + held_by(body, mesh->removed, mesh->mode_count, i, j);
     const struct mesh_push at_i = push_of(&i->mesh), at_j = push_of(&j->mesh);
     double between = mesh_between(mesh, &at_i, &at_j);
     return isnan(between) ? removed + held_by(body, mesh->removed, mesh->mode_count, i, j)

@@ -22,6 +22,10 @@ void mesh_family_load(const struct body *body, const struct site *site, const do
                       bool tangential, struct site_load *load);
 const char *mesh_family_theory(const struct body *body);
 
+/* Completes the load of a force along a mesh's surface at a site: its regular flexibility, and the
+ * uncertainty of that. */
+void mesh_family_along(const struct body *body, const struct site *site, struct mesh_load *load);
+
 /* The regular flexibility between two loads at one place of a body whose tensor is known. */
 double mesh_load_between(const struct mesh_load *i, const struct mesh_load *j);
 

@@ -21,7 +21,7 @@ struct site_load site_load_tangential(const struct body *body, const struct site
                                       const double direction[3])
 {
     struct site_load load = {0};
-    if (body->kind->load && !body_why_no_friction(body))
+    if (body->kind->load)
         body->kind->load(body, site, direction, true, &load);
     return load;
 }

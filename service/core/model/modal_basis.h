@@ -20,6 +20,7 @@ struct mesh_load {
     double point[3];                    /* mesh's frame and size, m */
     double flexibility;                 /* regular, of the body's own size and material, m/N */
     double unknown;                     /* uncertainty of the flexibility, m/N */
+    bool along;                         /* mesh: the force is along the surface */
     bool all_ways;                      /* `tensor` is known: with friction */
     double tensor[6];  /* regular flexibility of the place for forces in all directions: xx yy zz xy
                         * yz zx of the body's frame, m/N */
@@ -46,8 +47,7 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 
 /* The same along a direction in the surface, for friction. On the side of a bar it drives the
  * longitudinal waves, bends by its lever arm about the axis, and twists; a normal load there leaves
- * these out, as they come from the angle that is allowed between the stated and the true normal. No
- * family acts of a body that must not have friction (body_why_no_friction). */
+ * these out, as they come from the angle that is allowed between the stated and the true normal. */
 struct site_load site_load_tangential(const struct body *body, const struct site *site,
                                       const double direction[3]);
 

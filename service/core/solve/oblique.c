@@ -173,14 +173,6 @@ enum percuss_status oblique_check(const struct problem *problem, struct fault *f
         if (contact_law_asked(options->contact_model)->method != CONTACT_BY_LAW)
             return refuse_friction(c, "finite elements have no friction: contact_model auto has",
                                    fault);
-        for (int which = 0; which < 2; which++) {
-            const struct body *body = problem_body(problem, c, which);
-            char reason[512];
-            if (!body_is_flexible(body) || !body->kind->why_no_friction)
-                continue;
-            snprintf(reason, sizeof reason, "%s: %s", body->id, body->kind->why_no_friction);
-            return refuse_friction(c, reason, fault);
-        }
     }
     return PERCUSS_OK;
 }

@@ -76,40 +76,6 @@ static void bodies_without_such_loads(void **state)
     }
 }
 
-/* Meshes that vibrate are named; rigid ones are not, nor blocks, cylinders and strips. */
-static void bodies_that_may_have_friction(void **state)
-{
-    (void)state;
-    struct body block = {.id = "block",
-                         .kind = &block_kind,
-                         .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
-                         .size = {0.1, 0.1, 0.1},
-                         .tip_radius = INFINITY};
-    assert_int_equal(body_complete(&block, NULL), PERCUSS_OK);
-    assert_null(body_why_no_friction(&block));
-    struct body cylinder = block;
-    cylinder.kind = &cylinder_kind;
-    cylinder.radius = cylinder.length = 0.1;
-    assert_int_equal(body_complete(&cylinder, NULL), PERCUSS_OK);
-    assert_null(body_why_no_friction(&cylinder));
-    /* a mesh's modes count, not its kind */
-    struct mesh_body mesh = {.mode_count = 3};
-    struct body lump = {.kind = &mesh_kind, .mesh = &mesh};
-    assert_non_null(strstr(body_why_no_friction(&lump), "rigid: true"));
-    mesh.mode_count = 0;
-    assert_null(body_why_no_friction(&lump));
-    /* a strip that states a shear factor is a beam */
-    struct body strip = bar(&beam_kind, 0.06, 0.01, INFINITY, SUPPORT_FREE, SUPPORT_FREE);
-    assert_null(body_why_no_friction(&strip));
-    strip.shear_rule = SHEAR_ABSENT;
-    assert_int_equal(body_complete(&strip, NULL), PERCUSS_OK);
-    assert_null(body_why_no_friction(&strip));
-    /* as long as nobody lends its vibration */
-    nothing_acts(&strip, &(struct site){.face = SITE_BEAM_SIDE, .point = {0.1, 0.0, 0.005}});
-    struct body ball = {.kind = &sphere_kind, .radius = 0.1}, wall = {.kind = &half_space_kind};
-    assert_true(!body_why_no_friction(&ball) && !body_why_no_friction(&wall));
-}
-
 static void parts_of_a_load(void **state)
 {
     (void)state;
@@ -364,7 +330,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_without_such_loads),
-        cmocka_unit_test(bodies_that_may_have_friction),
         cmocka_unit_test(parts_of_a_load),
         cmocka_unit_test(participations_are_displacements),
         cmocka_unit_test(rods_on_their_sides),

@@ -4,6 +4,9 @@
 /* Mirrors service/tools/reduce/reduced_body.c. */
 #include <string.h>
 
+#include "model/mesh_surface.h"
+#include "model/modal_basis.h"
+#include "model/ritz.h"
 #include "reduce/reduced_body.h"
 #include "unit/reduce/solve_mesh.h"
 
@@ -86,11 +89,83 @@ static void test_block(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* Along the surface its modes and the normal's flexibility tell the compliance within the
+ * uncertainty that the load has, against the block of Ritz's method; between directions the modes'
+ * sum alone does, to 0.1 over E and the thickness. */
+static void compare_along(const struct body *body, const struct ritz *ritz, const double size[3],
+                          const double spot[2])
+{
+    double unit = 1.0 / (STEEL.young * size[0]);
+    struct site site = {.point = {spot[0], spot[1], 0.5 * size[2]}, .outward = {0.0, 0.0, 1.0}};
+    const double at[3] = {site.point[0] / size[0], site.point[1] / size[0],
+                          site.point[2] / size[0]};
+    struct mesh_place place;
+    struct family_load loads[3];
+    double tensor[6];
+    assert_int_equal(mesh_surface_find(body->mesh, site.point, 0.0, &place, 1), 1);
+    assert_true(ritz_tensor(ritz, 2, 1, at, tensor));
+    site.spot = (struct face_spot){.on_mesh = true,
+                                   .facet = place.face,
+                                   .u = place.u,
+                                   .v = place.v,
+                                   .flexibility = unit * tensor[2]};
+    for (int d = 0; d < 3; d++) {
+        const double direction[3] = {d == 0, d == 1, d == 2 ? -1.0 : 0.0};
+        struct site_load load = d == 2 ? site_load_make(body, &site, direction)
+                                       : site_load_tangential(body, &site, direction);
+        loads[d] = load.family[0];
+        assert_true(loads[d].acts);
+        double all = modal_compliance(body, 0, &loads[d], &loads[d]);
+        measured("compliance", all, unit * tensor[d], d == 2 ? 1e-9 * unit : loads[d].mesh.unknown);
+    }
+    /* a hundredth of the contact's of a radius of 0.1 mm */
+    assert_true(loads[0].mesh.unknown < 0.01 * 0.55 / (STEEL.young * 1e-4));
+    double left = 0.1 / (STEEL.young * size[2]);
+    measured("x, y", modal_compliance(body, 0, &loads[0], &loads[1]), unit * tensor[3], left);
+    measured("y, -z", modal_compliance(body, 0, &loads[1], &loads[2]), -unit * tensor[4], left);
+    measured("x, -z", modal_compliance(body, 0, &loads[0], &loads[2]), -unit * tensor[5], left);
+}
+
+static void test_block_along(void **state)
+{
+    (void)state;
+    static const double size[3] = {0.1, 0.04, 0.02}, spots[][2] = {{0.0, 0.0}, {0.02, 0.008}};
+    struct solid_mesh mesh;
+    struct surface surface;
+    struct solved solved;
+    struct mesh_body *made;
+    struct fault fault = {""};
+    solid_shape_block(ELEMENT_HEX20, size, (size_t[3]){14, 6, 4}, &STEEL, &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 30, &solved);
+    assert_int_equal(surface_make(&mesh, &surface, &fault), PERCUSS_OK);
+    assert_int_equal(surface_fit(&mesh, &surface, &fault), PERCUSS_OK);
+    struct reduced_parts parts = {.mesh = &mesh,
+                                  .surface = &surface,
+                                  .bulk = &solved.bulk,
+                                  .modes = &solved.modes,
+                                  .source = "a test",
+                                  .supports = ""};
+    assert_int_equal(reduced_body_make(&parts, &made, &fault), PERCUSS_OK);
+    assert_true(mesh_surface_prepare(made));
+    const struct body body = {.kind = &mesh_kind, .mesh = made, .material = STEEL, .scale = 1.0};
+    const struct ritz_shape shape = {.side = {size[0], size[1], size[2]}};
+    struct ritz *ritz = ritz_create(&shape, STEEL.poisson, NULL);
+    assert_non_null(ritz);
+    for (size_t p = 0; p < COUNT(spots); p++)
+        compare_along(&body, ritz, size, spots[p]);
+    ritz_free(ritz);
+    mesh_body_free(made);
+    surface_free(&surface);
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_enclosed_volume),
         cmocka_unit_test(test_block),
+        cmocka_unit_test(test_block_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -202,6 +202,18 @@ double model_impact_stiffness(const struct model_impact *impact)
                                      : 0.0;
 }
 
+double deviation_along(const struct problem *problem, const struct contact_friction *friction)
+{
+    const struct model_impact blow = model_impact_fastest(problem, friction->contact);
+    double stiffness = model_impact_stiffness(&blow), share = 0.0;
+    for (int t = 0; t < 2; t++) {
+        double unknown = friction->sides[t][0].load.family[0].mesh.unknown +
+                         friction->sides[t][1].load.family[0].mesh.unknown;
+        share = fmax(share, unknown * friction->ratio[2 * t] * stiffness);
+    }
+    return share;
+}
+
 double deviation_stiffness(const struct deviation *deviation, const struct model_impact *impact)
 {
     return hypot(deviation->force, deviation->compliance * model_impact_stiffness(impact));

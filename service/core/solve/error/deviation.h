@@ -44,6 +44,10 @@ struct deviation deviation_of(const struct problem *problem, size_t contact,
 /* Share of the stiffness that a compliance in series with a contact changes, per m/N. */
 double model_impact_stiffness(const struct model_impact *impact);
 
+/* Share of the tangential stiffness of a contact with friction that the unknown part of the bodies'
+ * tangential flexibility changes. */
+double deviation_along(const struct problem *problem, const struct contact_friction *friction);
+
 /* Deviation of the stiffness, as a share: of the law's force and the compliance together. */
 double deviation_stiffness(const struct deviation *deviation, const struct model_impact *impact);
 

@@ -9,6 +9,7 @@
 #include "model/vector.h"
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
+#include "solve/error/deviation.h"
 #include "solve/error/models.h"
 #include "solve/error/state.h"
 #include "solve/outcome.h"
@@ -84,8 +85,9 @@ static double numerical(const struct problem *problem, const struct solution *so
 }
 
 /* Of the tangential impulses: modes and steps by what they do to the normal ones, by the solutions
- * beside and by what cells and bends of the force leave; the models by the coefficient's deviation
- * and by the normal impulse. */
+ * beside and by what cells and bends of the force leave; the models by the coefficient's deviation,
+ * by the normal impulse, and by the unknown part of the tangential stiffness, which changes the
+ * impulse by less than as much. */
 static void report_tangential(const struct problem *problem, const struct solution *solution,
                               struct solve_result *result)
 {
@@ -99,6 +101,7 @@ static void report_tangential(const struct problem *problem, const struct soluti
         double cells = FRICTION_LEFT * sqrt(solution->step_accuracy) * limit;
         double models = hypot(solution->error.models.tangential[c],
                               friction->coefficient * contact->impulse_error_model);
+        models += deviation_along(problem, friction) * limit;
         double sum = normal + fmax(cells, solution->neighbours->tangential[c]) + models;
         /* from one end of Coulomb's range to the other */
         contact->impulse_tangential_error =
