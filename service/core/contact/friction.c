@@ -590,7 +590,7 @@ VECTOR_CLONES static void walk_plane(struct friction *friction, size_t count, do
         double *restrict share = friction->share + first;
         double *restrict x = friction->traction[0] + first;
         double *restrict y = friction->traction[1] + first;
-#pragma GCC ivdep /* more arrays than a compiler tells apart while it runs */
+        VECTOR_APART
         for (size_t i = 0; i < n; i++) {
             const struct cell_way cell = {
                 x[i],         y[i],          share[i],     base[i] + stiffness[i] * indentation,
