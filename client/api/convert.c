@@ -147,6 +147,7 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
 {
     *to = (percuss_v1_EnsembleRequest){0};
     PERCUSS_ENSEMBLE_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    to->list_tangential = true;
     enum percuss_result result = check_counts(from);
     if (result == PERCUSS_RESULT_OK)
         result = convert_request(&from->scene, &storage->scene, &to->scene);

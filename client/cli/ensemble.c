@@ -39,7 +39,7 @@ struct ensemble {
     struct common *common;
     struct scene scene;
     struct percuss_ensemble_request *request;
-    bool has_speed, has_samples, progress;
+    bool has_speed, has_samples, model_error, progress;
     const char *csv; /* file; NULL: not wanted */
     struct plot_output plot;
 };
@@ -47,13 +47,15 @@ struct ensemble {
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s or with units: a distribution", 10},
     {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
-     "another uncertain number: direction; site (or at), young, poisson, density, radius, yield, "
+     "another uncertain number: direction, friction; site (or at), young, poisson, density, "
+     "radius, yield, "
      "damping, scale of a body, in SI units or with their own: young@al-beam=normal:70GPa:1GPa, or "
      "young:al-beam=... (again for more)",
      11},
     {"model-error", KEY_MODEL_ERROR, NULL, 0,
      "what the models themselves may be wrong by is uncertain too: the inputs model-force, "
-     "model-compliance and model-yield, normal, in standard deviations",
+     "model-compliance and model-yield, with --friction model-friction, normal, in standard "
+     "deviations",
      11},
     {"correlate", KEY_CORRELATE, "I,J=RHO", 0,
      "inputs I and J (0: the first, in order) are correlated", 11},
@@ -103,6 +105,7 @@ static void add_model_error(struct ensemble *ensemble, struct argp_state *state)
                                          "model-yield=normal:0:1"};
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
         add_input(ensemble, inputs[i], false, state);
+    ensemble->model_error = true;
 }
 
 static void add_correlation(struct ensemble *ensemble, const char *text, struct argp_state *state)
@@ -158,6 +161,9 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     struct percuss_ensemble_request *request = ensemble->request;
     const struct scene_need speed = {"--speed DIST", ensemble->has_speed};
     scene_check_given(&ensemble->scene, &speed, 1, "", state);
+    /* --friction may stand behind --model-error */
+    if (ensemble->model_error && ensemble->scene.friction > 0.0)
+        add_input(ensemble, "model-friction=normal:0:1", false, state);
     for (size_t i = 0; i < request->input_count; i++)
         if (request->inputs[i].body[0])
             scene_check_body(&ensemble->scene, "input", request->inputs[i].body, state);

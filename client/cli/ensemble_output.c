@@ -79,17 +79,26 @@ static void print_histogram(const struct percuss_statistic *e)
                (unsigned long long)e->bin_counts[i], (int)(WIDTH * e->bin_counts[i] / most), bar);
 }
 
+/* Statistics without friction. */
+enum { PLAIN = 4 };
+
 static void print_others(const struct percuss_ensemble_reply *reply)
 {
-    printf("\n  %-12s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "lowest", "median",
-           "highest");
+    int width = 12;
+    for (size_t i = 1; i < reply->statistic_count; i++)
+        width = (int)fmax(width, (double)strlen(reply->statistics[i].quantity));
+    printf("\n  %-*s %12s %12s %12s %12s %12s\n", width, "", "mean", "deviation", "lowest",
+           "median", "highest");
     for (size_t i = 1; i < reply->statistic_count; i++) {
         const struct percuss_statistic *s = &reply->statistics[i];
         double median = NAN;
         for (size_t k = 0; k < s->quantile_count; k++)
             if (s->probabilities[k] == 0.5)
                 median = s->quantiles[k];
-        printf("  %-12s %12.5g %12.5g %12.5g %12.5g %12.5g\n", s->quantity, s->mean,
+        /* a group has no kinematic restitution, a contact without slip no tangential one */
+        if (i >= PLAIN && s->count == 0)
+            continue;
+        printf("  %-*s %12.5g %12.5g %12.5g %12.5g %12.5g\n", width, s->quantity, s->mean,
                s->standard_deviation, s->lowest, median, s->highest);
     }
 }
@@ -160,25 +169,48 @@ static void print_index(double value, double low, double high)
     printf(" %7.3f [%s, %s]", value, ends[0], ends[1]);
 }
 
-static void print_sensitivities(const struct percuss_ensemble_reply *reply)
+/* A line an input; of several tangential impulses their names too. */
+static void print_indices(const struct percuss_sensitivity *list, size_t count)
 {
-    const struct percuss_sensitivity *leading = NULL;
-    printf("\n  share of the variance that an input explains by itself, and that is left when all "
-           "others are known,\n  with 95 %% confidence\n");
-    for (size_t i = 0; i < reply->sensitivity_count; i++) {
-        const struct percuss_sensitivity *s = &reply->sensitivities[i];
-        if (!leading || s->first_order > leading->first_order)
-            leading = s;
+    for (size_t i = 0; i < count; i++) {
+        const struct percuss_sensitivity *s = &list[i];
         char name[160];
         snprintf(name, sizeof name, "%s%s%s", s->input, s->body[0] ? "@" : "", s->body);
+        if (i == 0 || strcmp(s->quantity, list[i - 1].quantity) != 0)
+            if (s->quantity[0] && strcmp(s->quantity, "restitution") != 0)
+                printf("  of %s\n", s->quantity);
         printf("  %-24s", name);
         print_index(s->first_order, s->first_order_low, s->first_order_high);
         print_index(s->total, s->total_low, s->total_high);
         printf("\n");
     }
+}
+
+static void print_heading(void)
+{
+    printf("\n  share of the variance that an input explains by itself, and that is left when all "
+           "others are known,\n  with 95 %% confidence\n");
+}
+
+static void print_sensitivities(const struct percuss_ensemble_reply *reply)
+{
+    const struct percuss_sensitivity *leading = NULL;
+    print_heading();
+    print_indices(reply->sensitivities, reply->sensitivity_count);
+    for (size_t i = 0; i < reply->sensitivity_count; i++)
+        if (!leading || reply->sensitivities[i].first_order > leading->first_order)
+            leading = &reply->sensitivities[i];
     /* of the others it says only that this one is not known */
     if (leading)
         print_chaos(leading);
+}
+
+static void print_tangential(const struct percuss_ensemble_reply *reply)
+{
+    if (reply->tangential_sensitivity_count == 0)
+        return;
+    print_heading();
+    print_indices(reply->tangential_sensitivities, reply->tangential_sensitivity_count);
 }
 
 static void print_model(const struct percuss_ensemble_reply *reply)
@@ -211,10 +243,11 @@ static void print_distribution(const struct percuss_ensemble_reply *reply)
     }
     print_sub_impacts(reply);
     print_others(reply);
-    if (!varies(e))
-        return;
-    print_intervals(reply);
-    print_sensitivities(reply);
+    if (varies(e)) {
+        print_intervals(reply);
+        print_sensitivities(reply);
+    }
+    print_tangential(reply);
 }
 
 void ensemble_print_table(const struct percuss_ensemble_request *request,
@@ -234,7 +267,11 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
         fprintf(stderr, "percuss: warning: %s\n", reply->warnings[i]);
 }
 
-static void write_head(FILE *stream, const struct percuss_ensemble_request *request, bool units)
+/* Columns of the listed samples behind the inputs, and behind these with friction. */
+enum { RESTITUTION, SIGNIFICANT = 5, RESULTS = 7, TANGENTIAL = 4 };
+
+static void write_head(FILE *stream, const struct percuss_ensemble_request *request,
+                       bool tangential, bool units)
 {
     for (size_t i = 0; i < request->input_count; i++) {
         const struct percuss_input *input = &request->inputs[i];
@@ -245,14 +282,19 @@ static void write_head(FILE *stream, const struct percuss_ensemble_request *requ
     }
     csv_head(stream, "restitution,impulse,end_time,peak_force,sub_impacts,significant,status",
              units);
+    if (tangential)
+        csv_head(stream,
+                 ",impulse_tangential_1,impulse_tangential_2,tangential_restitution,"
+                 "restitution_kinematic",
+                 units);
     putc('\n', stream);
 }
 
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
                         const struct percuss_ensemble_reply *reply, bool units)
 {
-    size_t columns = reply->column_count;
-    if (!reply->rows || columns != request->input_count + 7) {
+    size_t columns = reply->column_count, plain = request->input_count + RESULTS;
+    if (!reply->rows || (columns != plain && columns != plain + TANGENTIAL)) {
         complain("%s: the samples did not arrive", file);
         return false;
     }
@@ -261,14 +303,17 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
         complain("%s: %s", file, strerror(errno));
         return false;
     }
-    write_head(stream, request, units);
+    write_head(stream, request, columns > plain, units);
     for (uint64_t i = 0; i < reply->samples; i++) {
         /* inputs and results; two counts, and a status by its name */
         const double *row = reply->rows + i * columns;
-        for (size_t c = 0; c + 3 < columns; c++)
+        for (size_t c = 0; c + 3 < plain; c++)
             fprintf(stream, "%.17g,", row[c]);
-        fprintf(stream, "%.0f,%.0f,%s\n", row[columns - 3], row[columns - 2],
-                percuss_status_name((unsigned)row[columns - 1]));
+        fprintf(stream, "%.0f,%.0f,%s", row[plain - 3], row[plain - 2],
+                percuss_status_name((unsigned)row[plain - 1]));
+        for (size_t c = plain; c < columns; c++)
+            fprintf(stream, ",%.17g", row[c]);
+        putc('\n', stream);
     }
     /* a full disk may show only at the end */
     bool failed = ferror(stream) != 0;
@@ -303,9 +348,6 @@ json_t *ensemble_schema(void)
 
 /* A picture. */
 
-/* Columns of the listed samples behind the inputs. */
-enum { RESTITUTION, SIGNIFICANT = 5, RESULTS = 7 };
-
 /* The memory that a picture's arrays lie in. */
 struct columns {
     double *speeds; /* and restitutions, and numbers of sub-impacts */
@@ -333,7 +375,7 @@ static bool take_samples(const struct percuss_ensemble_request *request,
     size_t count = reply->samples, speed;
     if (count < 2 || !speed_column(request, &speed))
         return true;
-    if (!reply->rows || reply->column_count != request->input_count + RESULTS) {
+    if (!reply->rows || reply->column_count < request->input_count + RESULTS) {
         complain("--plot: the samples did not arrive");
         return false;
     }

@@ -112,8 +112,10 @@ const char *input_text_owner(const char *text)
 static bool check_name(const char *text, const char *name, bool readable, struct input_fault *fault)
 {
     static const char *const known[] = {
-        "speed", "direction", "model-force", "model-compliance", "model-yield", "site",    "at",
-        "young", "poisson",   "density",     "radius",           "yield",       "damping", "scale"};
+        "speed",       "direction",      "model-force", "model-compliance",
+        "model-yield", "model-friction", "friction",    "site",
+        "at",          "young",          "poisson",     "density",
+        "radius",      "yield",          "damping",     "scale"};
     struct similar similar = similar_to(name);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         if (!strcmp(known[i], name))
@@ -122,13 +124,13 @@ static bool check_name(const char *text, const char *name, bool readable, struct
     }
     if (readable && !similar.nearest)
         return true;
-    return refuse(
-        fault,
-        "'%s': '%s' is none of speed, direction, model-force, model-compliance, "
-        "model-yield, and of a body site (or at), young, poisson, density, radius, yield, "
-        "damping, scale%s%s%s",
-        text, name, similar.nearest ? ": did you mean '" : "",
-        similar.nearest ? similar.nearest : "", similar.nearest ? "'?" : "");
+    return refuse(fault,
+                  "'%s': '%s' is none of speed, direction, model-force, model-compliance, "
+                  "model-yield, model-friction, friction, and of a body site (or at), young, "
+                  "poisson, density, radius, yield, "
+                  "damping, scale%s%s%s",
+                  text, name, similar.nearest ? ": did you mean '" : "",
+                  similar.nearest ? similar.nearest : "", similar.nearest ? "'?" : "");
 }
 
 bool input_text_read(const char *text, struct percuss_input *input, struct input_fault *fault)

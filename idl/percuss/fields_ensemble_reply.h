@@ -50,7 +50,8 @@
     F(VALUE, lowest, "of the input")                                                               \
     F(VALUE, highest, "of the input")                                                              \
     F(VALUE, resolution, "a hundredth of the input's range")                                       \
-    L(LIST, parts, part_count, input_part, "the restitution along the input")
+    F(TEXT, quantity, "whose variance it is")                                                      \
+    L(LIST, parts, part_count, input_part, "the quantity along the input")
 
 #define PERCUSS_SIGMA_INTERVAL_FIELDS(F, ...)                                                      \
     F(VALUE, sigmas, "standard deviations from the mean")                                          \
@@ -96,6 +97,8 @@
     L(LIST, intervals, interval_count, sigma_interval, "of the restitution")                       \
     L(OPTIONAL, beta, beta_fit, "a Beta distribution of the restitution")                          \
     L(LIST, sensitivities, sensitivity_count, sensitivity, "to each uncertain input")              \
+    L(LIST, tangential_sensitivities, tangential_sensitivity_count, sensitivity,                   \
+      "of each tangential impulse that varies, with friction")                                     \
     L(OPTIONAL, check, ensemble_check, "of the one model for all samples")                         \
     F(VALUE, cut, "Hz; modes up to this frequency")                                                \
     F(VALUE, step_accuracy, "of the time steps")                                                   \

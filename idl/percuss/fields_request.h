@@ -60,8 +60,8 @@
 
 #define PERCUSS_INPUT_FIELDS(F, L)                                                                 \
     F(TEXT, name,                                                                                  \
-      "speed, direction, model-force, model-compliance, model-yield; site, young, poisson, "       \
-      "density, radius, yield, damping, scale")                                                    \
+      "speed, direction, model-force, model-compliance, model-yield, model-friction, friction; "   \
+      "site, young, poisson, density, radius, yield, damping, scale")                              \
     F(TEXT, body, "its id; empty: the contact's")                                                  \
     F(CHOICE, distribution, distribution, PERCUSS_DISTRIBUTION_COUNT, "of the values")             \
     F(VALUE, first, "the value, the lowest one or the mean")                                       \

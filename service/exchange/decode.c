@@ -347,6 +347,7 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
     }
     /* the scene as a whole, by the models as they are */
     memset(request->model_shift, 0, sizeof request->model_shift);
+    request->friction = (struct solve_friction){.given = false};
     check_enter(&check, NULL, CHECK_NO_LIST);
     if (wire->delassus._length > 0)
         check_delassus(&check, &wire->delassus, contact_count);
@@ -370,7 +371,8 @@ static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wi
     input->quantity = input_quantity_find(wire->name);
     check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
                "name: '%s': must be one of speed, direction, model-force, model-compliance, "
-               "model-yield, site (or at), young, poisson, density, radius, yield, damping, scale",
+               "model-yield, model-friction, friction, site (or at), young, poisson, density, "
+               "radius, yield, damping, scale",
                wire->name);
     /* a quantity of the contact has no body */
     input->body = 0;
@@ -470,6 +472,7 @@ enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
         .quantile_count = wire->quantiles._length,
         .quantiles = wire->quantiles._buffer,
         .bins = wire->bins,
+        .list_tangential = wire->list_tangential,
     };
     return check.status;
 }

@@ -36,18 +36,21 @@ static size_t statistic_room(const struct report_quantity *quantity)
 static size_t all_room(const struct ensemble_report *report)
 {
     size_t room = answer_room(1, sizeof(percuss_v1_EnsembleReply)) +
-                  answer_room(REPORT_QUANTITIES, sizeof(percuss_v1_Statistic)) +
+                  answer_room(report->quantity_count, sizeof(percuss_v1_Statistic)) +
                   2 * answer_room(report->count_length, sizeof(uint64_t)) +
                   answer_room(report->input_count, sizeof(percuss_v1_Sensitivity)) +
+                  answer_room(report->tangential_count, sizeof(percuss_v1_Sensitivity)) +
                   answer_room(REPORT_INTERVALS, sizeof(percuss_v1_SigmaInterval)) +
                   answer_room(1, sizeof(percuss_v1_BetaFit)) +
                   answer_room(1, sizeof(percuss_v1_EnsembleCheck)) +
                   answer_room(report->warning_count, sizeof(char *)) +
                   report->warning_count * answer_room(1, sizeof report->warnings[0]);
-    for (int q = 0; q < REPORT_QUANTITIES; q++)
+    for (size_t q = 0; q < report->quantity_count; q++)
         room += statistic_room(&report->quantities[q]);
     for (size_t i = 0; i < report->input_count; i++)
         room += answer_room(report->inputs[i].part_count, sizeof(percuss_v1_InputPart));
+    for (size_t i = 0; i < report->tangential_count; i++)
+        room += answer_room(report->tangential[i].part_count, sizeof(percuss_v1_InputPart));
     return room;
 }
 
@@ -84,6 +87,7 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
     const struct ensemble_input *input = &spec->inputs[from->input];
     /* which input, of which body */
     COPY_TEXT(to->input, input_quantity_name(input->quantity));
+    COPY_TEXT(to->quantity, from->quantity);
     if (input_is_of_body(input->quantity))
         COPY_TEXT(to->body, spec->request->bodies[input->body].id);
     /* Sobol indices with their intervals */
@@ -167,8 +171,8 @@ static void fill_lists(struct answer *answer, const struct ensemble *ensemble,
                        const struct ensemble_report *report)
 {
     percuss_v1_EnsembleReply *reply = answer->report;
-    TAKE_LIST(answer, reply->statistics, REPORT_QUANTITIES);
-    for (int q = 0; q < REPORT_QUANTITIES; q++)
+    TAKE_LIST(answer, reply->statistics, report->quantity_count);
+    for (size_t q = 0; q < report->quantity_count; q++)
         fill_statistic(answer, &report->quantities[q], &reply->statistics._buffer[q]);
     COPY_LIST(answer, reply->sub_impact_counts, report->sub_impact_counts, report->count_length);
     COPY_LIST(answer, reply->significant_counts, report->significant_counts, report->count_length);
@@ -176,6 +180,10 @@ static void fill_lists(struct answer *answer, const struct ensemble *ensemble,
     for (size_t i = 0; i < report->input_count; i++)
         fill_sensitivity(answer, &ensemble->spec, &report->inputs[i],
                          &reply->sensitivities._buffer[i]);
+    TAKE_LIST(answer, reply->tangential_sensitivities, report->tangential_count);
+    for (size_t i = 0; i < report->tangential_count; i++)
+        fill_sensitivity(answer, &ensemble->spec, &report->tangential[i],
+                         &reply->tangential_sensitivities._buffer[i]);
     TAKE_LIST(answer, reply->warnings, report->warning_count);
     for (size_t i = 0; i < report->warning_count; i++) {
         reply->warnings._buffer[i] = answer_take(answer, 1, sizeof report->warnings[0]);
@@ -206,11 +214,18 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
     return answer;
 }
 
-enum { RESULT_COLUMNS = 7 };
+enum { RESULT_COLUMNS = 7, TANGENTIAL_COLUMNS = 4 };
+
+/* Results of a sample; clients that do not know of friction get what they expect. */
+static size_t result_columns(const struct ensemble *ensemble)
+{
+    bool tangential = ensemble->has_friction && ensemble->spec.list_tangential;
+    return RESULT_COLUMNS + (tangential ? TANGENTIAL_COLUMNS : 0);
+}
 
 size_t encode_sample_columns(const struct ensemble *ensemble)
 {
-    return ensemble->spec.input_count + RESULT_COLUMNS;
+    return ensemble->spec.input_count + result_columns(ensemble);
 }
 
 void encode_sample(const struct ensemble *ensemble, uint64_t index,
@@ -218,9 +233,18 @@ void encode_sample(const struct ensemble *ensemble, uint64_t index,
 {
     size_t inputs = ensemble->spec.input_count;
     ensemble_inputs(ensemble, index, row);
-    const double results[RESULT_COLUMNS] = {
-        sample->restitution, sample->impulse,     sample->end_time, sample->peak_force,
-        sample->sub_impacts, sample->significant, sample->status,
+    const double results[RESULT_COLUMNS + TANGENTIAL_COLUMNS] = {
+        sample->restitution,
+        sample->impulse,
+        sample->end_time,
+        sample->peak_force,
+        sample->sub_impacts,
+        sample->significant,
+        sample->status,
+        sample->tangential[0],
+        sample->tangential[1],
+        sample->tangential_restitution,
+        sample->restitution_kinematic,
     };
-    memcpy(row + inputs, results, sizeof results);
+    memcpy(row + inputs, results, result_columns(ensemble) * sizeof *row);
 }

@@ -42,6 +42,7 @@ struct percuss_sensitivity {
     double total_low, total_high;                     /* 95 % */
     double mean, standard_deviation, lowest, highest; /* of the input */
     double resolution;
+    char quantity[32]; /* whose variance it is */
     size_t part_count;
     struct percuss_input_part *parts;
 };
@@ -86,6 +87,8 @@ struct percuss_ensemble_reply {
     struct percuss_beta_fit beta;
     size_t sensitivity_count;
     struct percuss_sensitivity *sensitivities;
+    size_t tangential_sensitivity_count; /* of each tangential impulse that varies */
+    struct percuss_sensitivity *tangential_sensitivities;
     struct percuss_ensemble_check check;
     double cut, step_accuracy; /* the model of all samples: modes up to this frequency, Hz */
     uint32_t pilots, agreeing;
@@ -93,7 +96,9 @@ struct percuss_ensemble_reply {
     char **warnings;
     struct percuss_timing timing;
     size_t column_count; /* of the listed samples: inputs, restitution, impulse, end_time,
-                            peak_force, sub_impacts, significant, status */
+                            peak_force, sub_impacts, significant, status; with friction also
+                            impulse_tangential_1 and _2, tangential_restitution,
+                            restitution_kinematic */
     double *rows; /* samples x column_count, row-major; NULL: not listed, or not all arrived */
     void *storage;
 };

@@ -33,8 +33,9 @@ enum percuss_sampling { PERCUSS_SAMPLING_LIST(PERCUSS_SAMPLING_MEMBER) PERCUSS_S
 
 struct percuss_input {
     char name[PERCUSS_ID_SIZE]; /* speed, direction; the models' errors, in standard deviations:
-                                   model-force, model-compliance, model-yield; site, young, poisson,
-                                   density, radius, yield, damping of a body */
+                                   model-force, model-compliance, model-yield, model-friction;
+                                   friction; site, young, poisson, density, radius, yield, damping
+                                   of a body */
     char body[PERCUSS_ID_SIZE]; /* its id; empty: of the contact */
     enum percuss_distribution distribution;
     double first, second; /* constant: value; uniform: range; others: mean and deviation */

@@ -120,6 +120,7 @@ class Sensitivity(ctypes.Structure):
         ("lowest", c_double),
         ("highest", c_double),
         ("resolution", c_double),
+        ("quantity", c_char * 32),
         ("part_count", c_size_t),
         ("parts", POINTER(InputPart)),
     ]
@@ -189,6 +190,8 @@ class Reply(ctypes.Structure):
         ("beta", BetaFit),
         ("sensitivity_count", c_size_t),
         ("sensitivities", POINTER(Sensitivity)),
+        ("tangential_sensitivity_count", c_size_t),
+        ("tangential_sensitivities", POINTER(Sensitivity)),
         ("check", Check),
         ("cut", c_double),
         ("step_accuracy", c_double),

@@ -17,6 +17,8 @@ from .vocabulary import Status
 
 
 _RESULTS = ("restitution", "impulse", "end_time", "peak_force", "sub_impacts", "significant", "status")
+# of contacts with friction
+_TANGENTIAL = ("impulse_tangential_1", "impulse_tangential_2", "tangential_restitution", "restitution_kinematic")
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ class InputPart:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """What one input does to the restitution."""
+    """What one input does to the restitution, or to a tangential impulse."""
 
     input: str
     body: str
@@ -76,6 +78,7 @@ class Sensitivity:
     lowest: float
     highest: float
     resolution: float
+    quantity: str
     parts: tuple[InputPart, ...]
 
 
@@ -135,7 +138,8 @@ class EnsembleReply:
     catalogue_revision: str
     version: str
     statistics: dict[str, Statistic]
-    """By quantity: restitution, impulse, end_time, peak_force."""
+    """By quantity: restitution, impulse, end_time, peak_force; with friction also impulse_tangential_1 and _2 (on A,
+    along the tangents that a reply has), tangential_restitution, restitution_kinematic."""
     sub_impact_counts: Any
     """[k]: samples with k sub-impacts."""
     significant_counts: Any
@@ -145,6 +149,8 @@ class EnsembleReply:
     intervals: tuple[SigmaInterval, ...]
     beta: BetaFit
     sensitivities: tuple[Sensitivity, ...]
+    tangential_sensitivities: tuple[Sensitivity, ...]
+    """With friction: of each tangential impulse that varies."""
     check: EnsembleCheck
     cut: float
     """Hz: modes up to this frequency take part in all samples."""
@@ -154,7 +160,8 @@ class EnsembleReply:
     warnings: tuple[str, ...]
     timing: Timing
     rows: Optional[FloatArray] = field(repr=False)
-    """A row a sample: inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status."""
+    """A row a sample: inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status; with
+    friction also the other quantities of the statistics."""
     columns: tuple[str, ...] = field(repr=False)
     """Of the rows; an input of a body is called young@al-beam."""
 
@@ -226,5 +233,5 @@ def read(answer: _ensemble_abi.Reply, question: Ensemble) -> EnsembleReply:
         significant_counts=_convert.array(answer.significant_counts, answer.count_length),
         warnings=tuple(_convert.text(one) for one in answer.warnings[: answer.warning_count]),
         rows=rows,
-        columns=(*(_name(one.name, one.body) for one in question.inputs), *_RESULTS),
+        columns=(*(_name(one.name, one.body) for one in question.inputs), *_RESULTS, *_TANGENTIAL)[:columns],
     )

@@ -41,8 +41,8 @@ class Input:
     """One uncertain input."""
 
     name: str
-    """speed, direction, model-force, model-compliance, model-yield of the contact; site, young, poisson, density,
-    radius, yield, damping of a body."""
+    """speed, direction, model-force, model-compliance, model-yield, model-friction, friction of the contact; site,
+    young, poisson, density, radius, yield, damping of a body."""
     distribution: Distribution = Distribution.CONSTANT
     first: Union[float, str] = 0.0
     """Constant: the value; uniform: the lowest; others: the mean. SI units, or a text with a unit: "70GPa"."""

@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+import numpy as np
+
 import percuss
 from percuss import ensemble_share
 
@@ -86,6 +88,40 @@ class Ensembles(unittest.TestCase):
         question.inputs = [percuss.Input("speed")] * 65
         with self.assertRaisesRegex(ValueError, "inputs: 65"):
             percuss.ensemble(question, self.local)
+
+    def test_friction(self) -> None:
+        """Statistics, samples and influences of the tangential impulse, by the daemon as by the library."""
+        bodies = self.local.bodies()
+        question = percuss.Ensemble(
+            percuss.contact_pair(bodies["steel-sphere"], bodies["steel-wall"], speed=0.3),
+            [percuss.Input("friction", percuss.Distribution.UNIFORM, 0.05, 0.1)],
+            samples=64,
+            sampling=percuss.Sampling.LATIN_HYPERCUBE,
+            list_samples=True,
+        )
+        question.scene.bodies[0].angular_velocity = (30.0, 0.0, 0.0)  # slides throughout
+        reply = percuss.ensemble(question, self.local)
+        with percuss.connect(int(os.environ["PERCUSS_DOMAIN"]), timeout=10.0) as daemon:
+            self.assertEqual(plain(reply), plain(percuss.ensemble(question, daemon)))
+        self.assertEqual(reply.status, percuss.Status.OK, reply.message)
+        assert reply.rows is not None
+        self.assertEqual(reply.rows.shape, (64, 1 + 11))
+        self.assertEqual(reply.columns[-1], "restitution_kinematic")
+        frame = dict(zip(reply.columns, reply.rows.T))
+        size = np.hypot(frame["impulse_tangential_1"], frame["impulse_tangential_2"])
+        np.testing.assert_allclose(size, frame["friction"] * frame["impulse"], rtol=1e-9)
+        for one in reply.tangential_sensitivities:
+            self.assertEqual(one.input, "friction")
+            self.assertGreater(one.first_order, 0.9)
+            self.assertAlmostEqual(
+                reply.statistics[one.quantity].mean, float(frame[one.quantity].mean()), delta=1e-12
+            )
+        self.assertEqual([one.quantity for one in reply.sensitivities], ["restitution"])
+        self.assertGreaterEqual(len(reply.tangential_sensitivities), 1)
+        question.inputs = [percuss.Input("model-friction", percuss.Distribution.NORMAL, 0.0, 1.0)]
+        refused = percuss.ensemble(question, self.local)
+        self.assertEqual(refused.status, percuss.Status.BAD_REQUEST)
+        self.assertIn("inputs[0].name: model-friction: contacts[0] must have friction", refused.message)
 
     def test_cancelled(self) -> None:
         reply = percuss.ensemble(self.question(2000000), self.local, progress=lambda told: told.done < 500)

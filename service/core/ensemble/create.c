@@ -29,7 +29,7 @@ static const double STRICT = 0.5;
 /* A pilot's inputs, its solution by the full search, and the model of that. */
 struct pilot {
     double values[ENSEMBLE_MAX_INPUTS];
-    double restitution;
+    double restitution, tangential[2];
     double allowed; /* difference from it with which a model agrees; INFINITY: none can */
     struct solution_model model;
 };
@@ -69,12 +69,14 @@ static enum percuss_status solve_pilots(struct choice *choice, struct fault *fau
         /* a pilot counts if the search answers it */
         status = worker_search(choice->worker, pilot->values, &pilot->model, &outcome, fault);
         pilot->restitution = outcome.restitution;
+        memcpy(pilot->tangential, outcome.tangential, sizeof pilot->tangential);
         choice->count += ensemble_has_result(status);
     }
     return choice->count > 0 ? PERCUSS_OK : status;
 }
 
-/* Difference of the model's answer to pilot k from the search's; INFINITY: it has none. */
+/* Difference of the model's answer to pilot k from the search's, of the restitution or of the
+ * tangential impulse in its unit; INFINITY: it has none. */
 static double difference_of(struct choice *choice, unsigned k)
 {
     struct ensemble *ensemble = choice->ensemble;
@@ -82,7 +84,12 @@ static double difference_of(struct choice *choice, unsigned k)
     /* the first with another model must not keep the scene */
     ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
     worker_solve(choice->worker, choice->pilots[k].values, &outcome, NULL);
+    const double *tangential = choice->pilots[k].tangential;
     double difference = fabs(outcome.restitution - choice->pilots[k].restitution);
+    if (ensemble->has_friction && outcome.compression > 0.0)
+        difference = fmax(difference, hypot(outcome.tangential[0] - tangential[0],
+                                            outcome.tangential[1] - tangential[1]) /
+                                          outcome.compression);
     return ensemble_has_result(outcome.status) && isfinite(difference) ? difference : INFINITY;
 }
 
@@ -242,12 +249,33 @@ static enum percuss_status try_request(struct ensemble *ensemble, const struct w
         status = solve(workspace, &means, spec->request, result);
         *fault = result->fault;
         ensemble->stated_model = result->contact_model;
+        ensemble->has_friction =
+            spec->contact < result->contact_count && result->contacts[spec->contact].friction > 0.0;
     } else {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     }
     solve_workspace_free(workspace);
     free(result);
     return ensemble_has_result(status) ? PERCUSS_OK : status;
+}
+
+/* An input that gives the contact friction, or shifts the friction that it has. */
+static enum percuss_status check_friction(struct ensemble *ensemble, struct fault *fault)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    for (size_t i = 0; i < spec->input_count; i++) {
+        if (spec->inputs[i].quantity == INPUT_MODEL_FRICTION && !ensemble->has_friction)
+            return fault_set(
+                fault, PERCUSS_BAD_REQUEST,
+                "inputs[%zu].name: model-friction: contacts[%zu] must have friction, "
+                "by contacts[%zu].friction or the catalogue (the input friction states "
+                "a coefficient)",
+                i, spec->contact, spec->contact);
+    }
+    for (size_t i = 0; i < spec->input_count; i++)
+        ensemble->has_friction =
+            ensemble->has_friction || spec->inputs[i].quantity == INPUT_FRICTION;
+    return PERCUSS_OK;
 }
 
 /* Dimensions, their correlations, and how many points. */
@@ -295,6 +323,8 @@ enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ense
         status = try_request(ensemble, watch, fault);
     if (!status)
         status = spec_check(spec, fault);
+    if (!status)
+        status = check_friction(ensemble, fault);
     if (!status)
         status = find_dimensions(ensemble, fault);
     if (!status)

@@ -13,6 +13,9 @@
 /* Outcome of one impact. */
 struct ensemble_sample {
     double restitution, impulse, end_time, peak_force; /* NAN where it was refused */
+    double compression;                                /* impulse that stops the approach, N s */
+    double tangential[2]; /* impulses on body a, N s; NAN where it was refused */
+    double tangential_restitution, restitution_kinematic;
     uint16_t sub_impacts, significant;
     uint32_t warnings;      /* 1 << enum warning_kind of each */
     uint32_t status;        /* enum percuss_status */
@@ -45,6 +48,7 @@ struct ensemble {
     size_t drawn[ENSEMBLE_MAX_INPUTS]; /* inputs that the dimensions belong to */
     uint64_t count;                    /* of samples, at most */
     struct ensemble_model model;
+    bool has_friction;                       /* the contact, as stated or by an input */
     bool same_scene;                         /* inputs change velocities only */
     enum percuss_contact_model stated_model; /* that solve() used for the impact as it is stated */
 };

@@ -86,8 +86,10 @@ struct ensemble_extra ensemble_extra(struct ensemble_worker *worker, uint64_t do
                                      ? worker_search(worker, values, NULL, &outcome, NULL)
                                      : worker_solve(worker, values, &outcome, NULL);
     if (!ensemble_has_result(status))
-        return (struct ensemble_extra){NAN, NAN};
-    return (struct ensemble_extra){outcome.restitution, outcome.error};
+        return (struct ensemble_extra){.restitution = NAN, .tangential = {NAN, NAN}, .error = NAN};
+    return (struct ensemble_extra){.restitution = outcome.restitution,
+                                   .tangential = {outcome.tangential[0], outcome.tangential[1]},
+                                   .error = outcome.error};
 }
 
 uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done)

@@ -23,8 +23,9 @@ struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble
 /* Extra solution k. The first ones repeat samples with the full accuracy search, the others with
  * one input drawn anew. */
 struct ensemble_extra {
-    double restitution; /* NAN: it was refused */
-    double error;       /* that the search estimates; NAN where one input is new */
+    double restitution;   /* NAN: it was refused */
+    double tangential[2]; /* impulses, N s; 0 without friction */
+    double error;         /* that the search estimates; NAN where one input is new */
 };
 struct ensemble_extra ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k);
 

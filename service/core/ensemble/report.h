@@ -12,7 +12,8 @@
 #include "ensemble/summary.h"
 
 enum {
-    REPORT_QUANTITIES = 4,
+    REPORT_QUANTITIES = 8,
+    REPORT_WITHOUT_FRICTION = 4, /* the first ones */
     REPORT_INTERVALS = 4,
     REPORT_PARTS = 32,
     REPORT_CURVE = 512, /* intervals of the distribution function, at most */
@@ -20,9 +21,22 @@ enum {
     REPORT_WARNING_SIZE = 1152
 };
 
+/* Quantities of the impacts; from TANGENTIAL on of contacts with friction only. Tangential impulses
+ * are on body a, along the contact's tangents. */
+enum report_of {
+    REPORT_RESTITUTION,
+    REPORT_IMPULSE,
+    REPORT_END_TIME,
+    REPORT_PEAK_FORCE,
+    REPORT_TANGENTIAL,
+    REPORT_TANGENTIAL_SECOND,
+    REPORT_TANGENTIAL_RESTITUTION,
+    REPORT_KINEMATIC
+};
+
 /* One quantity of the impacts. */
 struct report_quantity {
-    const char *name; /* restitution, impulse, end_time, peak_force */
+    const char *name; /* restitution, impulse, end_time, peak_force, ... */
     struct moments moments;
     struct interval mean, deviation; /* 95 % */
     size_t quantile_count;
@@ -36,8 +50,9 @@ struct report_quantity {
     double *curve_values, *curve_shares;
 };
 
-/* Influence of one uncertain input on the restitution. */
+/* Influence of one uncertain input on the restitution, or on a tangential impulse. */
 struct report_input {
+    const char *quantity;   /* name of the quantity */
     size_t input;           /* index into the spec's */
     struct indices indices; /* the total one NAN: not found, or it is correlated */
     struct moments values;
@@ -62,6 +77,7 @@ struct ensemble_report {
     struct arena memory; /* of all arrays */
     uint64_t done;       /* samples solved */
     uint64_t refused, truncated;
+    size_t quantity_count;
     struct report_quantity quantities[REPORT_QUANTITIES];
     size_t count_length; /* [k]: samples with k sub-impacts; k < count_length */
     uint64_t *sub_impact_counts, *significant_counts;
@@ -70,6 +86,8 @@ struct ensemble_report {
     struct beta_fit beta;
     size_t input_count; /* uncertain ones */
     struct report_input *inputs;
+    size_t tangential_count; /* the same of each tangential impulse that varies */
+    struct report_input *tangential;
     struct report_verification verification;
     size_t warning_count;
     char warnings[REPORT_WARNINGS][REPORT_WARNING_SIZE];

@@ -39,7 +39,8 @@ static const struct limit *input_limit(enum input_quantity quantity)
     static const struct limit *const limits[INPUT_QUANTITY_COUNT] = {
         [INPUT_SPEED] = &limit_speed,       [INPUT_DIRECTION] = &limit_direction,
         [INPUT_MODEL_FORCE] = &limit_model, [INPUT_MODEL_COMPLIANCE] = &limit_model,
-        [INPUT_MODEL_YIELD] = &limit_model, [INPUT_SITE] = &limit_site,
+        [INPUT_MODEL_YIELD] = &limit_model, [INPUT_MODEL_FRICTION] = &limit_model,
+        [INPUT_FRICTION] = &limit_friction, [INPUT_SITE] = &limit_site,
         [INPUT_YOUNG] = &limit_young,       [INPUT_POISSON] = &limit_poisson,
         [INPUT_DENSITY] = &limit_density,   [INPUT_RADIUS] = &limit_length,
         [INPUT_YIELD] = &limit_yield,       [INPUT_DAMPING] = &limit_damping,
@@ -71,7 +72,8 @@ enum input_quantity input_quantity_find(const char *name)
 
 bool input_is_of_body(enum input_quantity quantity)
 {
-    return quantity != INPUT_SPEED && quantity != INPUT_DIRECTION && !input_is_of_model(quantity);
+    return quantity != INPUT_SPEED && quantity != INPUT_DIRECTION && quantity != INPUT_FRICTION &&
+           !input_is_of_model(quantity);
 }
 
 /* Where values may lie: the stated truncation within the quantity's own limits. */
@@ -294,6 +296,7 @@ bool spec_changes_scene(const struct ensemble_spec *spec)
     bool changes = spec_changes_bodies(spec);
     for (size_t i = 0; i < spec->input_count; i++)
         changes = changes || spec->inputs[i].quantity == INPUT_SITE ||
+                  spec->inputs[i].quantity == INPUT_FRICTION ||
                   input_is_of_model(spec->inputs[i].quantity);
     return changes;
 }
@@ -360,11 +363,18 @@ static enum percuss_status check_numbers(const struct ensemble_spec *spec, struc
     return PERCUSS_OK;
 }
 
+static bool is_of_friction(const struct ensemble_input *input)
+{
+    return input->quantity == INPUT_FRICTION || input->quantity == INPUT_MODEL_FRICTION;
+}
+
 /* The same number cannot be replaced twice. */
 static bool clash(const struct ensemble_spec *spec, size_t i, size_t j)
 {
     const struct ensemble_input *a = &spec->inputs[i], *b = &spec->inputs[j];
     const struct solve_body *bodies = spec->request->bodies;
+    if (is_of_friction(a) && is_of_friction(b))
+        return true;
     return a->quantity == b->quantity &&
            (!input_is_of_body(a->quantity) || strcmp(bodies[a->body].id, bodies[b->body].id) == 0);
 }
@@ -408,6 +418,10 @@ static enum percuss_status check_input(const struct ensemble_spec *spec, size_t 
                          "inputs[%zu].name: %s: must be another one where there are %zu contacts: "
                          "it would move them apart",
                          i, name, spec->request->contact_count);
+    if (is_of_friction(input) && spec->request->options.friction == PERCUSS_FRICTION_NONE)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "inputs[%zu].name: %s: must be another one with options.friction none", i,
+                         name);
     /* nothing that is given twice */
     enum percuss_status status = check_overrides(spec, i, fault);
     if (status)

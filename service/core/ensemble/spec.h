@@ -15,15 +15,18 @@
 /* An uncertain number of an impact: its quantity, its body and its distribution. */
 
 /* speed: at which the contact approaches, m/s. direction: angle of the approach from the contact's
- * normal, rad. model-force, -compliance, -yield: error of the models, of all contacts, in standard
- * deviations (solve/model_deviation.h). site: place of the contact along a rod or beam, 0 .. 1. The
- * others: of a body; scale: of a mesh. */
+ * normal, rad. model-force, -compliance, -yield, -friction: error of the models, of all contacts,
+ * in standard deviations (solve/model_deviation.h; of the stated coefficients of friction,
+ * solve/request.h). friction: the contact's coefficient. site: place of the contact along a rod or
+ * beam, 0 .. 1. The others: of a body; scale: of a mesh. */
 #define INPUT_QUANTITY_LIST(X)                                                                     \
     X(SPEED, "speed")                                                                              \
     X(DIRECTION, "direction")                                                                      \
     X(MODEL_FORCE, "model-force")                                                                  \
     X(MODEL_COMPLIANCE, "model-compliance")                                                        \
     X(MODEL_YIELD, "model-yield")                                                                  \
+    X(MODEL_FRICTION, "model-friction")                                                            \
+    X(FRICTION, "friction")                                                                        \
     X(SITE, "site")                                                                                \
     X(YOUNG, "young")                                                                              \
     X(POISSON, "poisson")                                                                          \
@@ -69,7 +72,7 @@ bool input_is_of_body(enum input_quantity quantity);
 static inline bool input_is_of_model(enum input_quantity quantity)
 {
     return quantity == INPUT_MODEL_FORCE || quantity == INPUT_MODEL_COMPLIANCE ||
-           quantity == INPUT_MODEL_YIELD;
+           quantity == INPUT_MODEL_YIELD || quantity == INPUT_MODEL_FRICTION;
 }
 
 /* PERCUSS_OK or BAD_REQUEST, "inputs[index].field: value: must be ...". */
@@ -108,6 +111,7 @@ struct ensemble_spec {
     size_t quantile_count;
     const double *quantiles; /* probabilities */
     size_t bins;             /* 0: the default */
+    bool list_tangential;    /* samples are listed with their tangential results */
 };
 
 /* PERCUSS_OK or BAD_REQUEST with the field, its value and its allowed range. solve() judges the

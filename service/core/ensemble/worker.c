@@ -311,6 +311,8 @@ static enum percuss_status variation_apply(struct variation *variation, const do
             scale_velocities(&variation->request, values[i] / -variation->gap_rate);
         else if (spec->inputs[i].quantity == INPUT_DIRECTION)
             angle = values[i];
+        else if (spec->inputs[i].quantity == INPUT_FRICTION)
+            variation->request.friction = (struct solve_friction){true, spec->contact, values[i]};
         else if (input_is_of_model(spec->inputs[i].quantity))
             variation->request
                 .model_shift[spec->inputs[i].quantity - INPUT_MODEL_FORCE + SOLVE_SHIFT_FORCE] =
@@ -418,6 +420,16 @@ enum percuss_status worker_search(struct ensemble_worker *worker, const double *
                          worker->ensemble->spec.contact, model, outcome, fault);
 }
 
+/* Along a tangent without slip rounding leaves a trace, which is no scatter. */
+static double tangential_of(const struct repeat_outcome *outcome, bool good, int tangent)
+{
+    static const double ROUNDING = 1e-12;
+    double impulse = outcome->tangential[tangent];
+    if (!good)
+        return NAN;
+    return fabs(impulse) > ROUNDING * outcome->impulse ? impulse : 0.0;
+}
+
 void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
                     struct fault *fault)
 {
@@ -433,6 +445,10 @@ void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensem
         .impulse = good ? outcome.impulse : NAN,
         .end_time = good ? outcome.end_time : NAN,
         .peak_force = good ? outcome.peak_force : NAN,
+        .compression = good ? outcome.compression : NAN,
+        .tangential = {tangential_of(&outcome, good, 0), tangential_of(&outcome, good, 1)},
+        .tangential_restitution = good ? outcome.tangential_restitution : NAN,
+        .restitution_kinematic = good ? outcome.restitution_kinematic : NAN,
         .sub_impacts =
             (uint16_t)(outcome.sub_impacts < UINT16_MAX ? outcome.sub_impacts : UINT16_MAX),
         .significant = (uint16_t)outcome.significant,

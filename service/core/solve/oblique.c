@@ -25,6 +25,14 @@ static bool find_coefficient(const struct problem *problem, const struct body_se
     bool by_pair = stated == 0.0 && pair;
     friction->coefficient = by_pair ? pair->coefficient : stated;
     friction->deviation = by_pair ? pair->deviation : FRICTION_USUAL_DEVIATION * stated;
+    double shift = problem->request->model_shift[SOLVE_SHIFT_FRICTION];
+    if (shift != 0.0 && friction->coefficient > 0.0) {
+        double variation = friction->deviation / friction->coefficient;
+        friction->coefficient *= exp(shift * sqrt(log1p(variation * variation)));
+    }
+    const struct solve_friction *other = &problem->request->friction;
+    if (other->given && other->contact == contact)
+        friction->coefficient = other->coefficient;
     return friction->coefficient > 0.0;
 }
 
@@ -91,7 +99,7 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
 {
     struct contact_friction friction;
     size_t count = 0;
-    bool stated = catalogue->friction_count > 0;
+    bool stated = catalogue->friction_count > 0 || problem->request->friction.given;
     for (size_t c = 0; c < problem->contact_count; c++)
         stated = stated || problem->request->contacts[c].friction > 0.0;
     if (!stated)

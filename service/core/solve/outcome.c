@@ -86,6 +86,49 @@ double outcome_rebound(const struct problem *problem, const struct impact_outcom
     return compression > 0.0 ? fabs(back) / compression : 0.0;
 }
 
+void outcome_slip_after(const struct problem *problem, const struct impact_outcome *outcome,
+                        size_t index, double slip[2])
+{
+    size_t n = problem->contact_count, rows = problem_rows(problem);
+    for (size_t t = 0; t < 2; t++) {
+        size_t row = n + 2 * index + t;
+        const double *w = problem->row_w + row * rows;
+        slip[t] = problem->gap_rate[row];
+        for (size_t c = 0; c < n; c++)
+            slip[t] += w[c] * outcome->tracks[c].impulse;
+        for (size_t j = 0; j < problem->friction_count; j++)
+            for (size_t s = 0; s < 2; s++)
+                slip[t] +=
+                    w[n + 2 * j + s] * outcome->tracks[problem->friction[j].contact].tangential[s];
+    }
+}
+
+double outcome_tangential_restitution(const struct problem *problem,
+                                      const struct impact_outcome *outcome, size_t index)
+{
+    const double *before = problem->gap_rate + problem->contact_count + 2 * index;
+    double after[2], square = 0.0, product = 0.0;
+    outcome_slip_after(problem, outcome, index, after);
+    for (size_t t = 0; t < 2; t++) {
+        square += before[t] * before[t];
+        product += before[t] * after[t];
+    }
+    return square > 0.0 ? -product / square : NAN;
+}
+
+double outcome_kinematic(const struct problem *problem, const struct impact_outcome *outcome,
+                         size_t contact, double restitution)
+{
+    if (problem->contact_count > 1 || !(problem->impulse_compression[contact] > 0.0) ||
+        isnan(restitution))
+        return NAN;
+    const struct track *track = &outcome->tracks[contact];
+    double rate = problem->gap_rate[contact];
+    for (size_t r = 0; r < problem_rows(problem); r++)
+        rate += problem->row_w[r] * (r == 0 ? track->impulse : track->tangential[r - 1]);
+    return -rate / problem->gap_rate[contact];
+}
+
 double outcome_tangential_change(const struct impact_outcome *a, const struct impact_outcome *b,
                                  size_t contact)
 {

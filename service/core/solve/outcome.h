@@ -40,6 +40,21 @@ struct outcome_difference outcome_compare(const struct problem *problem,
                                           const struct impact_outcome *a,
                                           const struct impact_outcome *b);
 
+/* Slip after all impulses of the rigid bodies, along both tangents of problem->friction[index],
+ * m/s.
+ */
+void outcome_slip_after(const struct problem *problem, const struct impact_outcome *outcome,
+                        size_t index, double slip[2]);
+
+/* -after.before / before^2 of that slip; NAN without slip before. */
+double outcome_tangential_restitution(const struct problem *problem,
+                                      const struct impact_outcome *outcome, size_t index);
+
+/* Rate of the gap after over before of a single contact with that restitution, negative; NAN for
+ * groups. */
+double outcome_kinematic(const struct problem *problem, const struct impact_outcome *outcome,
+                         size_t contact, double restitution);
+
 /* Length of the difference of a contact's tangential impulses, N s. */
 double outcome_tangential_change(const struct impact_outcome *a, const struct impact_outcome *b,
                                  size_t contact);

@@ -61,8 +61,19 @@ static void read_track(const struct problem *problem, const struct impact_outcom
         .end_time = track->end_time,
         .peak_force = outcome_peak_force(solved, contact),
         .sub_impacts = (unsigned)track->count,
+        .compression = problem->impulse_compression[contact],
+        .tangential_restitution = NAN,
         .error = NAN,
     };
+    outcome->restitution_kinematic =
+        outcome_kinematic(problem, solved, contact, outcome->restitution);
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        if (problem->friction[i].contact != contact)
+            continue;
+        for (size_t t = 0; t < 2; t++)
+            outcome->tangential[t] = track->tangential[t];
+        outcome->tangential_restitution = outcome_tangential_restitution(problem, solved, i);
+    }
     for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
         outcome->significant += !track->list[i].negligible;
 }

@@ -21,6 +21,10 @@ struct repeat_outcome {
     double end_time;                          /* of the last sub-impact; 0 without any */
     double peak_force;                        /* largest of all sub-impacts */
     unsigned sub_impacts, significant;        /* all; those of at least 1 % of the impulse */
+    double compression;                       /* impulse that stops the approach, N s */
+    double tangential[2];                     /* impulses on body a; 0 without friction */
+    double tangential_restitution;            /* NAN without slip or friction */
+    double restitution_kinematic;             /* NAN for groups */
     double error;                             /* estimated; repeat_search only, else NAN */
     enum percuss_contact_model contact_model; /* HERTZ, CLOSED_FORM or TABLE */
     uint32_t warnings;                        /* 1 << enum warning_kind of each */

@@ -52,14 +52,11 @@ static void fill_rebound(const struct problem *problem, const struct solution *s
                          struct solve_contact_result *contact)
 {
     const struct track *track = &solution->outcome.tracks[c];
-    contact->restitution_kinematic = contact->restitution_energetic = NAN;
-    if (problem->contact_count > 1 || !(problem->impulse_compression[c] > 0.0) ||
-        isnan(contact->restitution))
+    contact->restitution_kinematic =
+        outcome_kinematic(problem, &solution->outcome, c, contact->restitution);
+    contact->restitution_energetic = NAN;
+    if (isnan(contact->restitution_kinematic))
         return;
-    double rate = problem->gap_rate[c];
-    for (size_t r = 0; r < problem_rows(problem); r++)
-        rate += problem->row_w[r] * (r == 0 ? track->impulse : track->tangential[r - 1]);
-    contact->restitution_kinematic = -rate / problem->gap_rate[c];
     /* without friction the impulse is in proportion to the change of the rate, which it only raises
      */
     if (problem->friction_count == 0 && problem->request->contacts[c].gap_acceleration == 0.0)
@@ -88,29 +85,16 @@ static void fill_friction(const struct problem *problem, const struct impact_out
     const struct contact_friction *friction = &problem->friction[i];
     const struct track *track = &outcome->tracks[friction->contact];
     size_t row = problem->contact_count + 2 * i;
-    size_t rows = problem_rows(problem);
-    double square = 0.0, product = 0.0;
     contact->friction = friction->coefficient;
     contact->friction_state = friction_state_of(track);
     memcpy(contact->tangent, friction->tangent[0], sizeof contact->tangent);
+    outcome_slip_after(problem, outcome, i, contact->slip_after);
     for (size_t t = 0; t < 2; t++) {
-        /* of rigid bodies, by all impulses */
-        double after = problem->gap_rate[row + t];
-        const double *w = problem->row_w + (row + t) * rows;
-        for (size_t c = 0; c < problem->contact_count; c++)
-            after += w[c] * outcome->tracks[c].impulse;
-        for (size_t j = 0; j < problem->friction_count; j++)
-            for (size_t s = 0; s < 2; s++)
-                after += w[problem->contact_count + 2 * j + s] *
-                         outcome->tracks[problem->friction[j].contact].tangential[s];
         contact->impulse_tangential[t] = track->tangential[t];
         contact->slip_before[t] = problem->gap_rate[row + t];
-        contact->slip_after[t] = after;
         add_scaled3(track->tangential[t], friction->tangent[t], contact->impulse_vector);
-        square += contact->slip_before[t] * contact->slip_before[t];
-        product += contact->slip_before[t] * after;
     }
-    contact->tangential_restitution = square > 0.0 ? -product / square : NAN;
+    contact->tangential_restitution = outcome_tangential_restitution(problem, outcome, i);
 }
 
 static void fill_contacts(const struct problem *problem, const struct solution *solution,

@@ -43,8 +43,22 @@ struct solve_options {
     PERCUSS_OPTION_FIELDS(SOLVE_MEMBER) /* the deadline is for the watch, the solver has no clock */
 };
 
-/* Shifts of a contact's models: force, compliance in series, stress of yield. */
-enum { SOLVE_SHIFT_FORCE, SOLVE_SHIFT_COMPLIANCE, SOLVE_SHIFT_YIELD, SOLVE_SHIFTS };
+/* Shifts of a contact's models: force, compliance in series, stress of yield, coefficient of
+ * friction (of which the stated one is the median of a log-normal distribution). */
+enum {
+    SOLVE_SHIFT_FORCE,
+    SOLVE_SHIFT_COMPLIANCE,
+    SOLVE_SHIFT_YIELD,
+    SOLVE_SHIFT_FRICTION,
+    SOLVE_SHIFTS
+};
+
+/* Another coefficient of friction of one contact than the request and the catalogue state. */
+struct solve_friction {
+    bool given;
+    size_t contact;
+    double coefficient; /* 0: none */
+};
 
 struct solve_request {
     size_t body_count, contact_count;
@@ -54,6 +68,7 @@ struct solve_request {
     struct solve_options options;
     double model_shift[SOLVE_SHIFTS]; /* of the models, in standard deviations of their errors
                                          (model_shift.h); 0: as they are */
+    struct solve_friction friction;   /* instead of the stated one */
 };
 
 /* Default horizon, s, or two longest periods where they are more: the sub-impacts of bodies on a

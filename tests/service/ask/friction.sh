@@ -102,4 +102,27 @@ says "contacts[0].friction: finite elements have no friction"
 expect 2 hit beam --friction 11
 says "a coefficient of 0 to 10 is needed"
 expect 0 hit beam --friction 0.3
+
+say "an ensemble of coefficients: statistics, samples and influences of the tangential impulse"
+spread() {
+    percuss ensemble --a ball --b beam --angle 30 "$@"
+}
+expect 0 spread --speed uniform:0.28:0.32 --input friction=log-normal:0.3:0.06 --samples 64 --csv "$work/mu.csv"
+shows "of impulse_tangential_1"
+shows "  restitution_kinematic "
+head -n 1 "$work/mu.csv" | grep -q '^speed,friction,.*,status,impulse_tangential_1,impulse_tangential_2,tangential' ||
+    fail "no tangential columns"
+awk -F, 'NR > 1 && $9 == "OK" && $10 < -0.001 && $10 > -0.01 && $2 > 0 { n++ } END { exit n != 64 }' "$work/mu.csv" ||
+    fail "the tangential impulses"
+expect 0 spread --speed 0.3 --friction 0.3 --model-error --samples 32 --json
+grep -q '"input": "model-friction"' "$out" || fail "the stated coefficient has no deviation"
+grep -q '"quantity": "impulse_tangential_1"' "$out" || fail "no tangential impulse in JSON"
+expect 5 spread --speed 0.3 --input model-friction=normal:0:1 --samples 8
+says "inputs[1].name: model-friction: contacts[0] must have friction"
+expect 5 spread --speed 0.3 --friction-law none --input friction=0.3 --samples 8
+says "inputs[1].name: friction: must be another one with options.friction none"
+expect 5 spread --speed 0.3 --input friction=uniform:-0.1:0.3 --samples 8
+says "inputs[1].first: -0.1: must be a coefficient >= 0 and <= 10"
+expect 0 spread --speed uniform:0.28:0.32 --samples 8 --csv "$work/none.csv"
+head -n 1 "$work/none.csv" | grep -q 'status$' || fail "columns of friction without friction"
 stop_daemon

@@ -21,7 +21,7 @@ struct example {
     struct ensemble_report report;
     double numbers[3];
     uint64_t counts[3];
-    struct report_input inputs[1];
+    struct report_input inputs[1], tangential[1];
     struct influence_part parts[2];
 };
 
@@ -33,7 +33,8 @@ static struct example *make(void)
         e->numbers[i] = 0.1 * i;
         e->counts[i] = (uint64_t)i + 10;
     }
-    for (int q = 0; q < REPORT_QUANTITIES; q++)
+    e->report.quantity_count = REPORT_WITHOUT_FRICTION;
+    for (int q = 0; q < REPORT_WITHOUT_FRICTION; q++)
         e->report.quantities[q] = (struct report_quantity){
             .name = "restitution",
             .moments = {.mean = 0.5 + q, .count = 7},
@@ -57,7 +58,8 @@ static struct example *make(void)
     e->ensemble.spec.request = &e->request;
     e->ensemble.count = 20;
     e->parts[1].chaotic = true;
-    e->inputs[0] = (struct report_input){.indices = {.first_order = 0.125,
+    e->inputs[0] = (struct report_input){.quantity = "restitution",
+                                         .indices = {.first_order = 0.125,
                                                      .total = 0.25,
                                                      .first_bounds = {0.1, 0.2},
                                                      .total_bounds = {0.2, 0.3},
@@ -69,6 +71,10 @@ static struct example *make(void)
     e->report.sub_impact_counts = e->report.significant_counts = e->counts;
     e->report.input_count = 1;
     e->report.inputs = e->inputs;
+    e->tangential[0] = e->inputs[0];
+    e->tangential[0].quantity = "impulse_tangential_1";
+    e->report.tangential_count = 1;
+    e->report.tangential = e->tangential;
     e->report.beta.alpha = 1.5;
     e->report.verification = (struct report_verification){
         .count = 5, .within = 0.8, .within_bounds = {0.4, 0.9}, .unmet = 2};
@@ -104,6 +110,11 @@ static void encodes_all(void **state)
     assert_true(sensitivity->total_low == 0.2 && sensitivity->total_high == 0.3);
     assert_true(sensitivity->noise == 0.01);
     assert_true(sensitivity->parts._buffer[1].chaotic);
+    assert_string_equal(sensitivity->quantity, "restitution");
+    assert_int_equal(reply->tangential_sensitivities._length, 1);
+    assert_string_equal(reply->tangential_sensitivities._buffer[0].quantity,
+                        "impulse_tangential_1");
+    assert_true(reply->tangential_sensitivities._buffer[0].parts._buffer[1].chaotic);
     assert_int_equal(reply->intervals._length, REPORT_INTERVALS);
     assert_true(reply->beta._buffer[0].alpha == 1.5);
     assert_int_equal(reply->check._buffer[0].count, 5);

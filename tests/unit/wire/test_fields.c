@@ -18,7 +18,9 @@
 #define SERVER_STATUS(F, L) PERCUSS_SERVER_FIELDS(F, L) F(, others)
 /* who asks whom, about which impact, and that it is enough: no part of the question */
 #define ENSEMBLE_REQUEST(F, L)                                                                     \
-    F(, client) F(, sequence) F(, server) F(, scene) F(, cancel) PERCUSS_ENSEMBLE_FIELDS(F, L)
+    F(, client)                                                                                    \
+    F(, sequence) F(, server) F(, scene) F(, cancel) F(, list_tangential)                          \
+        PERCUSS_ENSEMBLE_FIELDS(F, L)
 
 enum { MOST = 64, SIZE = 64 };
 
