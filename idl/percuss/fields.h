@@ -64,6 +64,7 @@
 
 /* The same value in all of *to's members that may be undefined, see VALUE. */
 #define PERCUSS_UNDEFINED(kind, name, ...) PERCUSS_UNDEFINED_##kind(name)
+#define PERCUSS_UNDEFINED_PAIR(name)       to->name[0] = to->name[1] = NAN;
 #define PERCUSS_UNDEFINED_VALUE(name)      to->name = NAN;
 #define PERCUSS_UNDEFINED_COUNT(name)
 #define PERCUSS_UNDEFINED_LONG_COUNT(name)

@@ -83,7 +83,10 @@
     F(FLAG, total_met, "the tolerance, by that total")                                             \
     F(VALUE, restitution_yield,                                                                    \
       "of `restitution_total`, what metals whose yield is not stated add: without it they are "    \
-      "elastic")
+      "elastic")                                                                                   \
+    F(PAIR, impulse_tangential_by_speed,                                                           \
+      "kg; d(impulse_tangential)/d(speed) of the contact with the largest impulse, with "          \
+      "`conditioning` and friction")
 
 #define PERCUSS_BODY_MODEL_FIELDS(F, ...)                                                          \
     F(ID, id, "of the body")                                                                       \

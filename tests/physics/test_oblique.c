@@ -528,9 +528,48 @@ static void models_of_sequences(void **state)
     lab_free(lab);
 }
 
+/* With the speed the tangential impulse of a ball that slides throughout grows as 2 m mu; that of a
+ * surface which is thrown back, by less: against two solutions. */
+static void impulse_by_speed(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const double slip[] = {6.0, 1.0};
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, RADIUS));
+    lab_add(lab, "wall", rigid_wall());
+    for (size_t i = 0; i < COUNT(slip); i++) {
+        double t[2], mass = STEEL.density * 4.0 / 3.0 * M_PI * RADIUS * RADIUS * RADIUS;
+        struct solve_request request = thrown("ball", RADIUS, 1.0, slip[i], 0.25);
+        request.options.tolerance = 1e-4;
+        lab_solve(lab, &request, &result);
+        assert_true(isnan(result.impulse_tangential_by_speed[0]));
+        request.options.conditioning = true;
+        lab_solve(lab, &request, &result);
+        double slope = result.impulse_tangential_by_speed[0];
+        near(result.impulse_tangential_by_speed[1] / mass, 0.0, 1e-6);
+        for (int side = 0; side < 2; side++) {
+            double factor = side ? 1.01 : 0.99;
+            struct solve_request other = thrown("ball", RADIUS, factor, factor * slip[i], 0.25);
+            other.options.tolerance = 1e-5;
+            lab_solve(lab, &other, &result);
+            t[side] = result.contacts[0].impulse_tangential[0];
+        }
+        measured("by speed", slope / mass, (t[1] - t[0]) / 0.02 / mass, i ? 1e-3 : 1e-5);
+        if (i == 0)
+            measured("mu 2 m", slope / mass, -2.0 * 0.25, 1e-4);
+        /* without friction there is none */
+        request.contacts[0].friction = 0.0;
+        lab_solve(lab, &request, &result);
+        assert_true(isnan(result.impulse_tangential_by_speed[0]));
+    }
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(impulse_by_speed),
         cmocka_unit_test(balls_at_angles),
         cmocka_unit_test(alumina_on_glass),
         cmocka_unit_test(bars_dropped_askew),

@@ -80,7 +80,8 @@ struct percuss_error_estimate {
     double restitution_model;                   /* by the models of contact and bodies */
     double restitution_total;                   /* all three */
     bool total_met;                             /* the tolerance, by that */
-    double restitution_yield; /* of that: the part of metals without a stated yield */
+    double restitution_yield;              /* of that: the part of metals without a stated yield */
+    double impulse_tangential_by_speed[2]; /* kg; NAN unless asked for, or without friction */
 };
 
 struct percuss_body_model {

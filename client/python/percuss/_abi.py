@@ -184,6 +184,7 @@ class ErrorEstimate(ctypes.Structure):
         ("restitution_total", c_double),
         ("total_met", c_bool),
         ("restitution_yield", c_double),
+        ("impulse_tangential_by_speed", _Pair),
     ]
 
 

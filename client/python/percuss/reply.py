@@ -171,6 +171,9 @@ class ErrorEstimate:
     """The tolerance, by that total."""
     restitution_yield: float
     """Of restitution_total, what metals whose yield is not stated add: without it they are elastic."""
+    impulse_tangential_by_speed: FloatArray
+    """d(impulse_tangential)/d(speed) of the contact with the largest impulse, kg; nan unless Options.conditioning asked
+    for it, or without friction."""
 
     @property
     def restitution(self) -> float:

@@ -48,12 +48,12 @@ def plain(value: Any) -> Any:
     """A reply as the objects of its JSON form: nan is None, octets are hexadecimal."""
     if dataclasses.is_dataclass(value):
         return {field.name: plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
-    if isinstance(value, tuple):
+    if isinstance(value, (tuple, list)):
         return [plain(element) for element in value]
     if isinstance(value, np.ndarray) and value.dtype.names:
         return [{name: plain(element[name].tolist()) for name in value.dtype.names} for element in value]
     if isinstance(value, np.ndarray):
-        return value.tolist()
+        return plain(value.tolist())
     if isinstance(value, bytes):
         return value.hex()
     if isinstance(value, float) and not math.isfinite(value):

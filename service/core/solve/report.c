@@ -528,6 +528,8 @@ static void fill_errors(const struct problem *problem, const struct solution *so
 {
     total_report(problem, solution, result);
     result->restitution_by_speed = solution->restitution_by_speed;
+    for (size_t t = 0; t < 2; t++)
+        result->impulse_tangential_by_speed[t] = solution->tangential_by_speed[t];
     result->energy = solution->outcome.energy;
     result->time_shift = solution->outcome.time_shift;
     result->window = solution->outcome.window;

@@ -108,7 +108,8 @@ struct solve_result {
     bool velocities_known; /* the service's own W was used */
     struct impact_energy energy;
     double restitution_time, restitution_modes, impulse_time, impulse_modes;
-    double restitution_by_speed; /* NAN unless asked for */
+    double restitution_by_speed;           /* NAN unless asked for */
+    double impulse_tangential_by_speed[2]; /* kg; NAN unless asked for, or without friction */
     bool tolerance_met;
     double restitution_model, restitution_total; /* of the models; of all known errors */
     bool total_met;

@@ -4,6 +4,7 @@
 #include "solve/solution.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
@@ -19,10 +20,10 @@ static const double ROUNDING = 1e-12;
 static const double SPEED_STEP = 1e-5;
 static const double DERIVATIVE_ACCURACY = 1e-9;
 
-/* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all
- * gap rates scaled. */
+/* d(restitution)/d(speed), and that of the tangential impulse, of the contact with the largest
+ * impulse, by central difference with all gap rates scaled. */
 static enum percuss_status find_conditioning(struct attempt_context *context,
-                                             const struct attempt *best, double *by_speed)
+                                             const struct attempt *best, struct solution *solution)
 {
     /* the contact with the largest impulse */
     const struct track *tracks = best->outcome.tracks;
@@ -30,8 +31,8 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     for (size_t c = 1; c < context->problem->contact_count; c++)
         if (tracks[c].impulse > tracks[main_contact].impulse)
             main_contact = c;
-    /* its restitution a little slower and a little faster */
-    double restitution[2];
+    /* its restitution and tangential impulse a little slower and a little faster */
+    double restitution[2], tangential[2][2];
     for (int side = 0; side < 2; side++) {
         struct attempt shifted = *best;
         shifted.accuracy = fmin(best->accuracy, DERIVATIVE_ACCURACY);
@@ -40,10 +41,15 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
         if (status || attempt_is_spent(&shifted))
             return status;
         restitution[side] = outcome_restitution(context->problem, &shifted.outcome, main_contact);
+        memcpy(tangential[side], shifted.outcome.tracks[main_contact].tangential,
+               sizeof tangential[side]);
     }
     /* over the step in speed */
-    *by_speed = (restitution[1] - restitution[0]) /
-                (2.0 * SPEED_STEP * fabs(context->problem->gap_rate[main_contact]));
+    double step = 2.0 * SPEED_STEP * fabs(context->problem->gap_rate[main_contact]);
+    solution->restitution_by_speed = (restitution[1] - restitution[0]) / step;
+    bool rubs = oblique_of(context->problem, main_contact) != NULL;
+    for (size_t t = 0; rubs && t < 2; t++)
+        solution->tangential_by_speed[t] = (tangential[1][t] - tangential[0][t]) / step;
     return PERCUSS_OK;
 }
 
@@ -144,7 +150,9 @@ static enum percuss_status solution_search(struct attempt_context *context,
     if (!context->neighbours)
         return PERCUSS_INTERNAL;
     context->neighbours->solutions = 0;
-    *solution = (struct solution){.neighbours = context->neighbours, .restitution_by_speed = NAN};
+    *solution = (struct solution){.neighbours = context->neighbours,
+                                  .restitution_by_speed = NAN,
+                                  .tangential_by_speed = {NAN, NAN}};
     /* steps as the tolerance asks for to begin with, and as many modes */
     /* a tangential force bends within an impact */
     bool careful = sequence || problem->friction_count > 0;
@@ -158,7 +166,7 @@ static enum percuss_status solution_search(struct attempt_context *context,
         status = refine_steps(context, &best, &solution->error.modes, &solution->error.steps);
     /* and the derivative by the speed */
     if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
-        status = find_conditioning(context, &best, &solution->restitution_by_speed);
+        status = find_conditioning(context, &best, solution);
     if (!status)
         solution_conclude(context, &best, solution);
     return status;

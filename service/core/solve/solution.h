@@ -29,6 +29,7 @@ struct solution {
     enum step_profile step_profile; /* the same */
     struct error_budget error;      /* of modes and steps; those of models and states come later */
     double restitution_by_speed;    /* NAN unless asked for */
+    double tangential_by_speed[2];  /* kg; NAN unless asked for, or without friction */
     bool tolerance_met;
     bool spent;     /* the effort allowed ended the search */
     double work;    /* that it left of it (impact.h) */

@@ -44,6 +44,7 @@ static void result_clear(struct solve_result *result)
 {
     memset(result, 0, offsetof(struct solve_result, contacts));
     result->restitution_by_speed = NAN;
+    result->impulse_tangential_by_speed[0] = result->impulse_tangential_by_speed[1] = NAN;
 }
 
 static enum percuss_status check_counts(const struct solve_request *request, struct fault *fault)

@@ -111,6 +111,8 @@ static void energy_error_and_model(void **state)
     assert_true(isnan(reply.error.restitution_by_speed) && reply.error.tolerance_met);
     assert_true(reply.error.restitution_model == 40 && reply.error.restitution_total == 41);
     assert_true(reply.error.total_met && reply.error.restitution_yield == 42);
+    assert_true(isnan(reply.error.impulse_tangential_by_speed[0]));
+    assert_true(reply.error.impulse_tangential_by_speed[1] == 43);
     assert_int_equal(reply.model.body_count, 1);
     assert_string_equal(reply.model.bodies[0].theory, "timoshenko");
     assert_int_equal(reply.model.bodies[0].modes, 24);

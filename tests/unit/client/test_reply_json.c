@@ -71,7 +71,7 @@ static void names_of_the_contract(void **state)
     expect_names(member(root, "error"),
                  "restitution_total,total_met,restitution_time,restitution_modes,impulse_time,"
                  "impulse_modes,restitution_by_speed,tolerance_met,restitution_model,"
-                 "restitution_yield");
+                 "restitution_yield,impulse_tangential_by_speed");
     expect_names(member(root, "model"),
                  "bodies,contact_model,compliance,method,reason,omitted_error");
     expect_names(json_array_get(member(member(root, "model"), "bodies"), 0),

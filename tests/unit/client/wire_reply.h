@@ -86,7 +86,7 @@ static inline percuss_v1_Reply wire_reply(void)
                                       .closure = 34,
                                       .friction = 58};
     FILL(wire.energy.vibration, vibration);
-    wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true, 40, 41, true, 42};
+    wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true, 40, 41, true, 42, {NAN, 43}};
     FILL(wire.model.bodies, models);
     wire.model.contact_model = percuss_v1_CONTACT_MODEL_HERTZ;
     wire.model.compliance = percuss_v1_COMPLIANCE_HALF_SPACE;

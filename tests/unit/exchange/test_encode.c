@@ -89,6 +89,8 @@ static void all_undefined(const percuss_v1_Reply *reply)
         error->restitution_model,
         error->restitution_total,
         error->restitution_yield,
+        error->impulse_tangential_by_speed[0],
+        error->impulse_tangential_by_speed[1],
         reply->model.omitted_error,
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
