@@ -9,28 +9,50 @@
 
 #include "error.h"
 
-enum { COLUMNS = 9 };
+/* Those of friction come last. */
+enum { FRICTIONLESS = 9, COLUMNS = 13 };
 
 /* The same columns on the wire and in a contact's trace. */
 static void list_columns(const percuss_v1_Trace *wire, const dds_sequence_double *lists[COLUMNS])
 {
     const dds_sequence_double *all[COLUMNS] = {
-        &wire->time,       &wire->force,          &wire->indentation,
-        &wire->gap,        &wire->gap_rate,       &wire->displacement_a,
-        &wire->velocity_a, &wire->displacement_b, &wire->velocity_b,
+        &wire->time,
+        &wire->force,
+        &wire->indentation,
+        &wire->gap,
+        &wire->gap_rate,
+        &wire->displacement_a,
+        &wire->velocity_a,
+        &wire->displacement_b,
+        &wire->velocity_b,
+        &wire->force_tangential_1,
+        &wire->force_tangential_2,
+        &wire->slip_1,
+        &wire->slip_2,
     };
     memcpy(lists, all, sizeof all);
 }
 
-/* All columns of a contact are one block that begins with `time`. */
-static void place_columns(struct percuss_contact_trace *contact, double *block, size_t room)
+/* The first `columns` of a contact are one block that begins with `time`. */
+static void place_columns(struct percuss_contact_trace *contact, size_t columns, double *block,
+                          size_t room)
 {
     double **all[COLUMNS] = {
-        &contact->time,       &contact->force,          &contact->indentation,
-        &contact->gap,        &contact->gap_rate,       &contact->displacement_a,
-        &contact->velocity_a, &contact->displacement_b, &contact->velocity_b,
+        &contact->time,
+        &contact->force,
+        &contact->indentation,
+        &contact->gap,
+        &contact->gap_rate,
+        &contact->displacement_a,
+        &contact->velocity_a,
+        &contact->displacement_b,
+        &contact->velocity_b,
+        &contact->force_tangential_1,
+        &contact->force_tangential_2,
+        &contact->slip_1,
+        &contact->slip_2,
     };
-    for (size_t i = 0; i < COLUMNS; i++)
+    for (size_t i = 0; i < columns; i++)
         *all[i] = block + i * room;
 }
 
@@ -41,17 +63,18 @@ static bool make_room(struct gather *gather, uint32_t c, size_t needed)
     if (needed <= gather->room[c] && contact->time)
         return true;
     size_t room = needed > 2 * gather->room[c] ? needed : 2 * gather->room[c];
-    double *block = calloc(COLUMNS * room + 1, sizeof *block);
+    size_t columns = gather->columns[c];
+    double *block = calloc(columns * room + 1, sizeof *block);
     if (!block) {
         gather->out_of_memory = true;
         return false;
     }
-    for (size_t i = 0; i < COLUMNS && contact->count > 0; i++)
+    for (size_t i = 0; i < columns && contact->count > 0; i++)
         memcpy(block + i * room, contact->time + i * gather->room[c],
                contact->count * sizeof *block);
     free(contact->time);
     gather->room[c] = room;
-    place_columns(contact, block, room);
+    place_columns(contact, columns, block, room);
     return true;
 }
 
@@ -68,12 +91,13 @@ void gather_add(struct gather *gather, const percuss_v1_Trace *wire)
     if (wire->part == 0) {
         gather->parts[c] = wire->parts;
         gather->longest[c] = length;
+        gather->columns[c] = wire->slip_1._length > 0 ? COLUMNS : FRICTIONLESS;
     }
     /* the first part is as long as any */
     if (wire->parts != gather->parts[c] || length > gather->longest[c] ||
         !make_room(gather, c, contact->count + length))
         return;
-    for (size_t i = 0; i < COLUMNS; i++) {
+    for (size_t i = 0; i < gather->columns[c]; i++) {
         double *column = contact->time + i * gather->room[c] + contact->count;
         /* a column that the server does not know stays undefined */
         for (size_t k = 0; k < length; k++)

@@ -15,6 +15,7 @@ struct gather {
     uint32_t parts[PERCUSS_MAX_CONTACTS]; /* 0: none has come */
     size_t longest[PERCUSS_MAX_CONTACTS]; /* part, instants */
     size_t room[PERCUSS_MAX_CONTACTS];    /* instants */
+    size_t columns[PERCUSS_MAX_CONTACTS]; /* with friction more */
     bool out_of_memory;
 };
 

@@ -328,17 +328,29 @@ int write_trace_csv(const char *file, const struct percuss_trace *trace, bool un
         complain("--trace: %s: %s", file, strerror(errno));
         return EXIT_FAILURE;
     }
+    bool friction = false;
+    for (size_t c = 0; c < trace->contact_count; c++)
+        friction = friction || trace->contacts[c].slip_1;
     csv_head(out,
              "contact,time,force,indentation,gap,gap_rate,displacement_a,velocity_a,displacement_b,"
              "velocity_b",
              units);
+    if (friction)
+        csv_head(out, ",force_tangential_1,force_tangential_2,slip_1,slip_2", units);
     putc('\n', out);
     for (size_t c = 0; c < trace->contact_count; c++) {
         const struct percuss_contact_trace *t = &trace->contacts[c];
-        for (size_t i = 0; i < t->count; i++)
-            fprintf(out, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", c,
-                    t->time[i], t->force[i], t->indentation[i], t->gap[i], t->gap_rate[i],
-                    t->displacement_a[i], t->velocity_a[i], t->displacement_b[i], t->velocity_b[i]);
+        for (size_t i = 0; i < t->count; i++) {
+            fprintf(out, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", c, t->time[i],
+                    t->force[i], t->indentation[i], t->gap[i], t->gap_rate[i], t->displacement_a[i],
+                    t->velocity_a[i], t->displacement_b[i], t->velocity_b[i]);
+            if (t->slip_1)
+                fprintf(out, ",%.17g,%.17g,%.17g,%.17g", t->force_tangential_1[i],
+                        t->force_tangential_2[i], t->slip_1[i], t->slip_2[i]);
+            else if (friction)
+                fputs(",nan,nan,nan,nan", out);
+            putc('\n', out);
+        }
     }
     /* a full disk may show only at the end */
     bool written = !ferror(out) && (out == stdout ? fflush(out) : fclose(out)) == 0;

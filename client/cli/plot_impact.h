@@ -39,7 +39,8 @@ struct impact_picture {
 int plot_impact(const struct plot_output *output, const struct impact_picture *picture);
 
 /* All contacts: contact, time, force, indentation, gap, gap_rate, displacement_a, velocity_a,
- * displacement_b, velocity_b; "-" is standard output. Exit code; complains. */
+ * displacement_b, velocity_b; where any has friction force_tangential_1, force_tangential_2,
+ * slip_1, slip_2, nan of one without. "-" is standard output. Exit code; complains. */
 int write_trace_csv(const char *file, const struct percuss_trace *trace, bool units);
 
 #endif

@@ -227,11 +227,26 @@ static size_t lists_room(const struct solve_result *result, size_t listed)
 
 /* Time histories, cut into samples of bounded size. */
 
-enum { TRACE_COLUMNS = 9 };
+enum { TRACE_COLUMNS = 9, TRACE_FRICTION_COLUMNS = 4 };
+
+static bool trace_has_friction(const struct trace *trace)
+{
+    for (size_t c = 0; c < trace->contacts; c++)
+        if (trace->contact[c].slip[0])
+            return true;
+    return false;
+}
+
+/* Instants of a part: the fewer the more columns. */
+static size_t trace_part(const struct trace *trace)
+{
+    size_t columns = TRACE_COLUMNS + (trace_has_friction(trace) ? TRACE_FRICTION_COLUMNS : 0);
+    return TRACE_PART_INSTANTS * TRACE_COLUMNS / columns;
+}
 
 static size_t trace_parts(const struct trace *trace)
 {
-    return (trace->count + TRACE_PART_INSTANTS - 1) / TRACE_PART_INSTANTS;
+    return (trace->count + trace_part(trace) - 1) / trace_part(trace);
 }
 
 /* The room that fill_traces takes of an answer; 0 for NULL. */
@@ -240,23 +255,25 @@ static size_t trace_room(const struct trace *trace)
     if (!trace)
         return 0;
     return answer_room(trace->contacts * trace_parts(trace), sizeof(percuss_v1_Trace)) +
-           trace->contacts * TRACE_COLUMNS * answer_room(trace->count, sizeof(double));
+           trace->contacts * (TRACE_COLUMNS + TRACE_FRICTION_COLUMNS) *
+               answer_room(trace->count, sizeof(double));
 }
 
 /* Part of a column in each sample of a contact. */
 static void fill_trace_column(struct answer *answer, const struct trace *trace,
                               const double *values, dds_sequence_double *first)
 {
+    size_t instants = trace_part(trace);
     double *copy = answer_take(answer, trace->count, sizeof *copy);
     memcpy(copy, values, trace->count * sizeof *copy);
     for (size_t part = 0; part < trace_parts(trace); part++) {
         /* the same member of the next sample */
         dds_sequence_double *list =
             (dds_sequence_double *)((char *)first + part * sizeof(percuss_v1_Trace));
-        size_t start = part * TRACE_PART_INSTANTS;
+        size_t start = part * instants;
         size_t left = trace->count - start;
         list->_buffer = copy + start;
-        list->_length = (uint32_t)(left < TRACE_PART_INSTANTS ? left : TRACE_PART_INSTANTS);
+        list->_length = (uint32_t)(left < instants ? left : instants);
         list->_maximum = list->_length;
         list->_release = false;
     }
@@ -292,6 +309,12 @@ static void fill_traces(struct answer *answer, const struct envelope *envelope,
         fill_trace_column(answer, trace, contact->velocity[0], &first->velocity_a);
         fill_trace_column(answer, trace, contact->displacement[1], &first->displacement_b);
         fill_trace_column(answer, trace, contact->velocity[1], &first->velocity_b);
+        if (!contact->slip[0])
+            continue;
+        fill_trace_column(answer, trace, contact->tangential[0], &first->force_tangential_1);
+        fill_trace_column(answer, trace, contact->tangential[1], &first->force_tangential_2);
+        fill_trace_column(answer, trace, contact->slip[0], &first->slip_1);
+        fill_trace_column(answer, trace, contact->slip[1], &first->slip_2);
     }
 }
 

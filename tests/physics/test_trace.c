@@ -326,6 +326,126 @@ static void with_friction(void **state)
     lab_free(lab);
 }
 
+/* The tangential force shown, integrated over the sub-impacts of the reply. */
+static void shows_the_tangential_force(const struct solve_result *result)
+{
+    const struct trace *trace = result->trace;
+    const struct trace_contact *shown = &trace->contact[0];
+    const struct solve_contact_result *contact = &result->contacts[0];
+    double impulse[2] = {0};
+    double part[8][2] = {{0}};
+    assert_in_range(contact->sub_impacts_listed, 1, 8);
+    for (size_t i = 1; i < trace->count; i++)
+        for (size_t t = 0; t < 2; t++) {
+            double h = trace->time[i] - trace->time[i - 1];
+            double added = 0.5 * h * (shown->tangential[t][i] + shown->tangential[t][i - 1]);
+            impulse[t] += added;
+            for (size_t s = 0; s < contact->sub_impacts_listed; s++)
+                if (trace->time[i] > contact->sub_impacts[s].start - 0.5 * h &&
+                    trace->time[i - 1] < contact->sub_impacts[s].end)
+                    part[s][t] += added;
+        }
+    /* Coulomb's circle at every instant */
+    double most = 0.0;
+    for (size_t i = 0; i < trace->count; i++) {
+        double size = hypot(shown->tangential[0][i], shown->tangential[1][i]);
+        if (shown->force[i] > 0.0)
+            most = fmax(most, size / (contact->friction * shown->force[i]));
+        else
+            assert_true(size == 0.0);
+    }
+    assert_true(most > 0.999 && most <= 1.0 + 1e-12);
+    /* by the trapezoidal rule, of the largest tangential impulse that Coulomb's law allows */
+    double scale = contact->friction * contact->impulse;
+    for (size_t t = 0; t < 2; t++) {
+        measured("tangential impulse shown", impulse[t] / scale,
+                 contact->impulse_tangential[t] / scale, 2e-3);
+        for (size_t s = 0; s < contact->sub_impacts_listed; s++)
+            measured("of a sub-impact", part[s][t] / scale,
+                     contact->sub_impacts[s].impulse_tangential[t] / scale, 2e-3);
+    }
+}
+
+/* The paper's sphere on the middle of its beam at 30 degrees: the second blow slides backward. */
+static void friction_that_reverses(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct solve_request request = strike(
+        sphere_spot("sphere", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.3 * cos(M_PI / 6.0));
+    double r[9], axis[3] = {1.0, 0.0, 0.0}, along[3];
+    rotation_matrix(request.bodies[1].orientation, r);
+    rotate3(r, axis, along);
+    add_scaled3(0.15, along, request.bodies[0].velocity);
+    request.contacts[0].friction = 0.3;
+    memcpy(request.contacts[0].tangent, along, sizeof along);
+    request.options.tolerance = 1e-5;
+    request.options.trace = true;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    shows_the_tangential_force(&result);
+    const struct solve_contact_result *contact = &result.contacts[0];
+    /* a program of its own has 7.047 and -2.361 mN s (unit/solve/test_oblique) with sections that
+     * do not deform */
+    measured_relative("first blow", contact->sub_impacts[0].impulse_tangential[0], -7.047e-3, 1e-2);
+    measured_relative("second blow", contact->sub_impacts[1].impulse_tangential[0], 2.361e-3, 6e-2);
+    /* the force is against the slip of each blow's start, which vibration has turned */
+    const struct trace_contact *shown = &result.trace->contact[0];
+    double first = 0.0, second = 0.0;
+    for (size_t i = 0; i < result.trace->count; i++)
+        if (result.trace->time[i] < 1e-3)
+            first = fmin(first, shown->tangential[0][i]);
+        else
+            second = fmax(second, shown->tangential[0][i]);
+    assert_true(first < -50.0 && second > 15.0);
+    measured("slip at first", shown->slip[0][0], 0.15, 1e-12);
+    size_t touch = 0;
+    while (result.trace->time[touch] < contact->sub_impacts[1].start)
+        touch++;
+    assert_true(shown->slip[0][touch] < -0.02);
+    /* along a tangent that is turned both components are shown */
+    request.options.tolerance = 1e-3;
+    rotate3(r, (const double[3]){0.6, 0.8, 0.0}, request.contacts[0].tangent);
+    lab_solve(lab, &request, &result);
+    shows_the_tangential_force(&result);
+    measured_relative("turned", result.trace->contact[0].slip[0][0], 0.09, 1e-9);
+    assert_true(fabs(result.contacts[0].impulse_tangential[1]) > 3e-3);
+    /* the histories of a contact without friction have none */
+    request.contacts[0].friction = 0.0;
+    lab_solve(lab, &request, &result);
+    assert_null(result.trace->contact[0].tangential[0]);
+    assert_null(result.trace->contact[0].slip[1]);
+    lab_free(lab);
+}
+
+/* Two balls that stick at first and slide at last: no vibration, so that the slip shown at the end
+ * is that of the reply. */
+static void friction_of_rigid_bodies(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    lab_add(lab, "other", make_sphere(STEEL, 0.015));
+    struct solve_request request =
+        strike(sphere_spot("sphere", 0.015), sphere_spot("other", 0.015), 0.26);
+    request.bodies[0].velocity[0] += 0.1;
+    request.bodies[0].velocity[1] += 0.05;
+    request.contacts[0].friction = 0.3;
+    request.options.trace = true;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    shows_the_tangential_force(&result);
+    const struct trace_contact *shown = &result.trace->contact[0];
+    size_t last = result.trace->count - 1;
+    for (size_t t = 0; t < 2; t++) {
+        measured_relative("slip before", shown->slip[t][0], result.contacts[0].slip_before[t],
+                          1e-9);
+        measured("slip after", shown->slip[t][last], result.contacts[0].slip_after[t], 1e-6);
+    }
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +456,8 @@ int main(void)
         cmocka_unit_test(other_methods_and_masses_are_told),
         cmocka_unit_test(several_contacts_share_the_instants),
         cmocka_unit_test(with_friction),
+        cmocka_unit_test(friction_that_reverses),
+        cmocka_unit_test(friction_of_rigid_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,11 @@ struct percuss_contact_trace {
     double *velocity_a;     /* instant; with vibration, without the local indentation. NAN */
     double *displacement_b; /* where the request brought its own delassus */
     double *velocity_b;
+    double
+        *force_tangential_1; /* N, on body a along both tangents; NULL without friction, as the */
+    double *force_tangential_2; /* slip is */
+    double *slip_1;             /* m/s, of body a's point against b's along both, with vibration */
+    double *slip_2;
 };
 
 struct percuss_trace {

@@ -256,6 +256,10 @@ class ContactTrace(ctypes.Structure):
         ("velocity_a", POINTER(c_double)),
         ("displacement_b", POINTER(c_double)),
         ("velocity_b", POINTER(c_double)),
+        ("force_tangential_1", POINTER(c_double)),
+        ("force_tangential_2", POINTER(c_double)),
+        ("slip_1", POINTER(c_double)),
+        ("slip_2", POINTER(c_double)),
     ]
 
 

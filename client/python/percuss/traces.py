@@ -10,7 +10,7 @@ SI units.
 """
 
 import ctypes
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,10 @@ from .reply import Reply
 from .request import FloatArray, Request
 
 _library = _abi.library
+
+
+def _nothing() -> FloatArray:
+    return np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,26 @@ class ContactTrace:
     """m/s."""
     displacement_b: FloatArray
     velocity_b: FloatArray
+    force_tangential_1: FloatArray = field(default_factory=_nothing)
+    """N, on body a along the first tangent of the contact; empty without friction, as the three that follow."""
+    force_tangential_2: FloatArray = field(default_factory=_nothing)
+    """N, along the second."""
+    slip_1: FloatArray = field(default_factory=_nothing)
+    """m/s, of body a's point against body b's along the first tangent, with vibration."""
+    slip_2: FloatArray = field(default_factory=_nothing)
+    """m/s, along the second."""
+
+
+_OF_ALL = frozenset(one.name for one in fields(ContactTrace) if one.default_factory is MISSING)
+
+
+def _slides(contact: ContactTrace) -> bool:
+    return len(contact.slip_1) > 0
+
+
+def _filled(contact: ContactTrace, name: str) -> FloatArray:
+    found: FloatArray = getattr(contact, name)
+    return found if len(found) else np.full(len(contact.time), np.nan)
 
 
 @dataclass(frozen=True)
@@ -57,10 +81,11 @@ class Trace:
     """Ids of bodies a and b of each contact."""
 
     def to_dataframe(self) -> Any:
-        """A row an instant of a contact: contact, and the members of ContactTrace."""
-        names = [field.name for field in fields(ContactTrace)]
+        """A row an instant of a contact: contact, and the members of ContactTrace, those of friction where any contact
+        has it, nan of one without."""
+        names = [one.name for one in fields(ContactTrace) if one.name in _OF_ALL or any(map(_slides, self.contacts))]
         parts = [
-            {"contact": np.full(len(one.time), i), **{name: getattr(one, name) for name in names}}
+            {"contact": np.full(len(one.time), i), **{name: _filled(one, name) for name in names}}
             for i, one in enumerate(self.contacts)
         ]
         return _tables.stack(parts, ("contact", *names))
@@ -82,7 +107,7 @@ class Trace:
 
 
 def _read(source: Any) -> ContactTrace:
-    arrays = {field.name: _convert.array(getattr(source, field.name), source.count) for field in fields(ContactTrace)}
+    arrays = {one.name: _convert.array(getattr(source, one.name), source.count) for one in fields(ContactTrace)}
     return ContactTrace(**arrays)
 
 

@@ -4,6 +4,7 @@
 
 import dataclasses
 import unittest
+from typing import Any
 
 import numpy as np
 
@@ -22,11 +23,15 @@ class Traces(Beam):
     def test_as_the_program_writes_it(self) -> None:
         program("query", "--a", "steel-sphere", "--b", "al-beam", "--speed", "0.2", "--trace", "trace.csv")
         written = np.genfromtxt("trace.csv", delimiter=",", names=True)
+        names = written.dtype.names or ()
         for client in (self.client, self.local):
             traced = percuss.trace(self.question(), client, timeout=60.0)
             (contact,) = traced.contacts
             self.assertEqual(traced.reply.contacts[0].impulse, client.solve(self.question()).contacts[0].impulse)
             for field in dataclasses.fields(contact):
+                if field.name not in names:
+                    self.assertEqual(getattr(contact, field.name).shape, (0,), field.name)
+                    continue
                 ours = getattr(contact, field.name)
                 self.assertEqual((ours.shape, ours.dtype), (written.shape, np.dtype(float)), field.name)
                 # the program writes nine digits
@@ -41,6 +46,46 @@ class Traces(Beam):
         self.assertAlmostEqual(impulse / said.impulse, 1.0, delta=1e-3)
         self.assertAlmostEqual(contact.force.max() / said.sub_impacts["peak_force"].max(), 1.0, delta=1e-3)
         self.assertAlmostEqual(contact.gap_rate[0], -0.2, delta=1e-12)
+
+    def test_friction(self) -> None:
+        """The tangential force and the slip of a ball that comes down at 30 degrees: the second blow slides backward."""
+        command = ("query", "--a", "steel-sphere", "--b", "al-beam", "--speed", "0.3", "--angle", "30", "--friction", "0.3")
+        program(*command, "--trace", "friction.csv")
+        written = np.genfromtxt("friction.csv", delimiter=",", names=True)
+        question = self.question()
+        question.bodies[0].velocity = 0.3 / 0.2 * np.cos(np.pi / 6.0) * np.asarray(question.bodies[0].velocity)
+        # the beam's axis
+        question.bodies[0].velocity = question.bodies[0].velocity + 0.15 * self.axis(question)
+        question.contacts[0].friction = 0.3
+        question.contacts[0].tangent = self.axis(question)
+        for client in (self.client, self.local):
+            traced = percuss.trace(question, client, timeout=60.0)
+            contact, said = traced.contacts[0], traced.reply.raise_for_status().contacts[0]
+            for name in written.dtype.names or ():
+                if name == "contact":
+                    continue
+                scale = float(np.abs(written[name]).max())
+                np.testing.assert_allclose(getattr(contact, name), written[name], rtol=1e-8, atol=1e-9 * scale, err_msg=name)
+            force = contact.force_tangential_1
+            shown = np.concatenate(([0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(contact.time))))
+            first = shown[np.searchsorted(contact.time, 1e-3)]
+            self.assertAlmostEqual(first / said.sub_impacts["impulse_tangential"][0][0], 1.0, delta=2e-3)
+            self.assertAlmostEqual(shown[-1] / said.impulse_tangential[0], 1.0, delta=2e-3)
+            self.assertTrue(first < -7e-3 and shown[-1] - first > 2e-3)
+            size = np.hypot(force, contact.force_tangential_2)
+            self.assertTrue((size <= 0.3 * contact.force * (1.0 + 1e-12)).all())
+            self.assertAlmostEqual(contact.slip_1[0], 0.15, delta=1e-12)
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            return
+        self.assertEqual(list(traced.to_dataframe().columns)[-4:], list(written.dtype.names or ())[-4:])
+        self.assertNotIn("slip_1", percuss.trace(self.question(), self.local).to_dataframe())
+
+    def axis(self, question: percuss.Request) -> np.ndarray[Any, Any]:
+        """The first tangent of the surface: the axis of the beam, in the world."""
+        w, x, y, z = question.bodies[1].orientation
+        return np.array([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)])
 
     def test_refusals(self) -> None:
         question = self.question()

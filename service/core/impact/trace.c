@@ -35,6 +35,20 @@ struct tracer {
     double left; /* work that steps may still take */
 };
 
+/* The arrays of a contact; those of friction come last. */
+enum { FRICTIONLESS = 8, HISTORIES = 12 };
+
+static void list_histories(struct trace_contact *contact, double **arrays[HISTORIES])
+{
+    double **all[HISTORIES] = {
+        &contact->force,         &contact->indentation,     &contact->gap,
+        &contact->gap_rate,      &contact->displacement[0], &contact->displacement[1],
+        &contact->velocity[0],   &contact->velocity[1],     &contact->tangential[0],
+        &contact->tangential[1], &contact->slip[0],         &contact->slip[1],
+    };
+    memcpy(arrays, all, sizeof all);
+}
+
 static bool create(struct tracer *tracer, struct arena *arena)
 {
     struct trace *trace = tracer->trace;
@@ -60,13 +74,10 @@ static bool create(struct tracer *tracer, struct arena *arena)
         return false;
     /* histories of the contacts */
     for (size_t c = 0; c < n; c++) {
-        struct trace_contact *contact = &trace->contact[c];
-        double **arrays[] = {
-            &contact->force,       &contact->indentation,     &contact->gap,
-            &contact->gap_rate,    &contact->displacement[0], &contact->displacement[1],
-            &contact->velocity[0], &contact->velocity[1],
-        };
-        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        double **arrays[HISTORIES];
+        bool friction = scene_friction_of(tracer->scene, c) < tracer->scene->frictions;
+        list_histories(&trace->contact[c], arrays);
+        for (size_t i = 0; i < (friction ? HISTORIES : FRICTIONLESS); i++)
             if (!(*arrays[i] = arena_take(arena, tracer->room, sizeof(double))))
                 return false;
     }
@@ -81,15 +92,10 @@ static void thin(struct tracer *tracer)
     for (size_t i = 0; i < half; i++) {
         trace->time[i] = trace->time[2 * i];
         for (size_t c = 0; c < trace->contacts; c++) {
-            struct trace_contact *contact = &trace->contact[c];
-            contact->force[i] = contact->force[2 * i];
-            contact->indentation[i] = contact->indentation[2 * i];
-            contact->gap[i] = contact->gap[2 * i];
-            contact->gap_rate[i] = contact->gap_rate[2 * i];
-            for (int s = 0; s < 2; s++) {
-                contact->displacement[s][i] = contact->displacement[s][2 * i];
-                contact->velocity[s][i] = contact->velocity[s][2 * i];
-            }
+            double **arrays[HISTORIES];
+            list_histories(&trace->contact[c], arrays);
+            for (size_t k = 0; k < HISTORIES && *arrays[k]; k++)
+                (*arrays[k])[i] = (*arrays[k])[2 * i];
         }
     }
     trace->count = half;
@@ -136,6 +142,26 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     *velocity = sides->velocity[s][c] + fall * t + sign * v;
 }
 
+/* Tangential force and slip at instant i. Between the nodes of a step its cubics may leave
+ * Coulomb's circle by their own error; the law does not. */
+static void sample_friction(const struct tracer *tracer, size_t friction, size_t i,
+                            const double *force)
+{
+    const struct scene *scene = tracer->scene;
+    struct trace_contact *contact = &tracer->trace->contact[scene->friction[friction].contact];
+    size_t row = scene_tangent(scene, friction);
+    double most = scene->friction[friction].coefficient * contact->force[i];
+    double size = hypot(force[row], force[row + 1]);
+    double share = size > most ? most / size : 1.0;
+    for (size_t t = 0; t < 2; t++) {
+        double approach;
+        double rate;
+        motion_approach(&tracer->now, scene, row + t, &approach, &rate);
+        contact->tangential[t][i] = share * force[row + t];
+        contact->slip[t][i] = -rate;
+    }
+}
+
 /* Records the present instant. */
 static void sample(struct tracer *tracer, const double *force, const double *indentation)
 {
@@ -165,6 +191,8 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
             move_of_side(tracer, c, s, force, &contact->displacement[s][i],
                          &contact->velocity[s][i]);
     }
+    for (size_t f = 0; f < tracer->scene->frictions; f++)
+        sample_friction(tracer, f, i, force);
 }
 
 /* A step of a level with these forces at its nodes. False: out of memory or work, or stopped. */

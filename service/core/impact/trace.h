@@ -25,6 +25,8 @@ struct trace_contact {
     double *force, *indentation; /* N, m; 0 while open */
     double *gap, *gap_rate;      /* rigid */
     double *displacement[2], *velocity[2];
+    double *tangential[2]; /* N, on the first body along both tangents; NULL without friction */
+    double *slip[2];       /* m/s, of its point against the other's, with vibration; the same */
 };
 
 struct trace {

@@ -36,6 +36,25 @@ head -n 1 "$work/trace.csv" | grep -q '^contact,time,force,indentation,gap,gap_r
 near "$(sum "$work/trace.csv")" "$(field impulse)" 2e-3 ||
     fail "force shown $(sum "$work/trace.csv"), impulse $(field impulse)"
 
+say "with friction the tangential force and the slip come behind"
+head -n 1 "$work/trace.csv" | grep -qx 'contact,time,force,indentation,gap,gap_rate,displacement_a,velocity_a,displacement_b,velocity_b' ||
+    fail "without friction there are other columns"
+expect 0 percuss query --a steel-sphere --b al-beam --speed 0.3 --angle 30 --friction 0.3 --json --trace "$work/slides.csv"
+head -n 1 "$work/slides.csv" | grep -qx 'contact,time,.*,velocity_b,force_tangential_1,force_tangential_2,slip_1,slip_2' ||
+    fail "the columns have other names: $(head -n 1 "$work/slides.csv")"
+# of each blow in mN s: the second one slides backward; nowhere beyond Coulomb's law
+awk -F, 'NR > 2 { blow[$2 > 1e-3] += 500 * ($2 - t) * ($11 + f) }
+    NR > 1 { t = $2; f = $11; if ($11 * $11 > 0.09 * $3 * $3 * (1 + 1e-12)) beyond = 1 }
+    END { print blow[0], blow[1]; exit beyond }' "$work/slides.csv" >"$work/blows" || fail "more than the coefficient allows"
+read -r first second <"$work/blows"
+near "$first" -7.101 2e-3 && near "$second" 2.356 2e-3 || fail "tangential impulses shown: $first, $second mN s"
+# the last one is the contact's, those of its sub-impacts stand before
+total=$(sed -n '/"impulse_tangential": \[/{n;s/[ ,]//g;p}' "$out" | tail -n 1)
+near "$(awk '{ print 1e-3 * ($1 + $2) }' "$work/blows")" "$total" 2e-3 || fail "not the reply's impulse_tangential: $total"
+expect 0 percuss query --a steel-sphere --b al-beam --speed 0.3 --angle 30 --friction 0.3 --units --trace "$work/units.csv"
+head -n 1 "$work/units.csv" | grep -q ',force_tangential_1 \[N\],force_tangential_2 \[N\],slip_1 \[m/s\],slip_2 \[m/s\]$' ||
+    fail "units: $(head -n 1 "$work/units.csv")"
+
 say "pictures by gnuplot"
 expect 0 query --plot "$work/beam.png" --trace "$work/again.csv"
 picture "$work/beam.png" 20000

@@ -56,6 +56,33 @@ static void puts_parts_together(void **state)
     percuss_trace_free(&trace);
 }
 
+/* The first part says whether there is friction. */
+static void friction_has_columns_of_its_own(void **state)
+{
+    (void)state;
+    static struct gather gather;
+    struct percuss_trace trace;
+    percuss_v1_Trace with = part_of(0, 0, 2, 3), then = part_of(0, 1, 2, 2);
+    percuss_v1_Trace without = part_of(1, 0, 2, 3), late = part_of(1, 1, 2, 2);
+    with.force_tangential_1 = with.force_tangential_2 = list(0, 3);
+    with.slip_1 = with.slip_2 = list(1, 3);
+    then.force_tangential_2 = list(4, 2);
+    late.slip_1 = list(0, 2);
+    gather_add(&gather, &with);
+    gather_add(&gather, &then);
+    gather_add(&gather, &without);
+    gather_add(&gather, &late);
+    assert_int_equal(gather_collect(&gather, 2, &trace), PERCUSS_RESULT_OK);
+    const struct percuss_contact_trace *contact = &trace.contacts[0];
+    assert_true(contact->force_tangential_1[2] == 2 && contact->slip_2[0] == 1);
+    assert_true(contact->force_tangential_2[4] == 5 && isnan(contact->slip_1[3]));
+    assert_null(trace.contacts[1].force_tangential_1);
+    assert_null(trace.contacts[1].slip_1);
+    assert_int_equal(trace.contacts[1].count, 5);
+    percuss_trace_free(&trace);
+    gather_clear(&gather);
+}
+
 /* Nor is there memory for it. */
 static void what_is_announced_is_not_there_yet(void **state)
 {
@@ -88,6 +115,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(puts_parts_together),
+        cmocka_unit_test(friction_has_columns_of_its_own),
         cmocka_unit_test(what_is_announced_is_not_there_yet),
         cmocka_unit_test(a_refusal_has_no_histories),
     };

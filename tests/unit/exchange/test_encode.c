@@ -208,29 +208,42 @@ static void cuts_batches_into_parts(void **state)
     cuts_a_batch(3, 64, 256);
 }
 
+/* Histories of two contacts, the second one with friction or without. */
+enum { INSTANTS = 2 * TRACE_PART_INSTANTS + 7, TRACED = 2 };
+static double histories[13][INSTANTS];
+static struct trace_contact traced[TRACED];
+
+static struct answer *encode_histories(bool friction)
+{
+    struct trace trace = {INSTANTS, TRACED, histories[0], traced};
+    struct envelope envelope = sample_envelope(9);
+    for (int k = 0; k < 13; k++)
+        for (int i = 0; i < INSTANTS; i++)
+            histories[k][i] = 1e4 * k + i;
+    for (int c = 0; c < TRACED; c++)
+        traced[c] = (struct trace_contact){.force = histories[1],
+                                           .indentation = histories[2],
+                                           .gap = histories[3],
+                                           .gap_rate = histories[4],
+                                           .displacement = {histories[5], histories[7]},
+                                           .velocity = {histories[6], histories[8]}};
+    for (int t = 0; t < 2 && friction; t++) {
+        traced[1].tangential[t] = histories[9 + t];
+        traced[1].slip[t] = histories[11 + t];
+    }
+    struct solve_result *result = sample_result(TRACED, 1);
+    result->trace = &trace;
+    struct answer *answer = encode_result(&envelope, result, sample_tokens, 16);
+    free(result);
+    return answer;
+}
+
 /* Every instant of every column once, in samples of bounded size. */
 static void cuts_histories_into_parts(void **state)
 {
     (void)state;
-    enum { INSTANTS = 2 * TRACE_PART_INSTANTS + 7, CONTACTS = 2 };
-    static double values[9][INSTANTS];
-    struct trace_contact contacts[CONTACTS];
-    struct trace trace = {INSTANTS, CONTACTS, values[0], contacts};
-    struct envelope envelope = sample_envelope(9);
-    for (int k = 0; k < 9; k++)
-        for (int i = 0; i < INSTANTS; i++)
-            values[k][i] = 1e4 * k + i;
-    for (int c = 0; c < CONTACTS; c++)
-        contacts[c] = (struct trace_contact){values[1],
-                                             values[2],
-                                             values[3],
-                                             values[4],
-                                             {values[5], values[7]},
-                                             {values[6], values[8]}};
-    struct solve_result *result = sample_result(CONTACTS, 1);
-    result->trace = &trace;
-    struct answer *answer = encode_result(&envelope, result, sample_tokens, 16);
-    assert_int_equal(answer->trace_count, 3 * CONTACTS);
+    struct answer *answer = encode_histories(false);
+    assert_int_equal(answer->trace_count, 3 * TRACED);
     for (uint32_t i = 0; i < answer->trace_count; i++) {
         const percuss_v1_Trace *part = &answer->traces[i];
         uint32_t first = part->part * TRACE_PART_INSTANTS;
@@ -242,10 +255,33 @@ static void cuts_histories_into_parts(void **state)
         assert_true(part->time._buffer[0] == first);
         assert_true(part->displacement_a._buffer[6] == 5e4 + 6 + first);
         assert_true(part->velocity_b._buffer[6] == 8e4 + 6 + first);
+        assert_int_equal(part->force_tangential_1._length + part->slip_2._length, 0);
         assert_in_range(serialised(part, &percuss_v1_Trace_desc), 1, BATCH_PART_BYTES);
     }
     answer_release(answer);
-    free(result);
+}
+
+/* Parts with friction have fewer instants, so that they are no larger. */
+static void cuts_histories_of_friction(void **state)
+{
+    (void)state;
+    enum { OF_PART = TRACE_PART_INSTANTS * 9 / 13, PARTS = INSTANTS / OF_PART + 1 };
+    struct answer *answer = encode_histories(true);
+    assert_int_equal(answer->trace_count, PARTS * TRACED);
+    for (uint32_t i = 0; i < answer->trace_count; i++) {
+        const percuss_v1_Trace *part = &answer->traces[i];
+        double first = part->time._buffer[0];
+        assert_true(first == (double)part->part * OF_PART);
+        assert_int_equal(part->slip_2._length, part->contact == 1 ? part->time._length : 0);
+        assert_in_range(serialised(part, &percuss_v1_Trace_desc), 1, BATCH_PART_BYTES);
+        if (part->contact != 1)
+            continue;
+        assert_true(part->force_tangential_1._buffer[2] == 9e4 + 2 + first);
+        assert_true(part->force_tangential_2._buffer[2] == 10e4 + 2 + first);
+        assert_true(part->slip_1._buffer[2] == 11e4 + 2 + first);
+        assert_true(part->slip_2._buffer[2] == 12e4 + 2 + first);
+    }
+    answer_release(answer);
 }
 
 int main(void)
@@ -258,6 +294,7 @@ int main(void)
         cmocka_unit_test(bounds_the_size_of_a_reply),
         cmocka_unit_test(cuts_batches_into_parts),
         cmocka_unit_test(cuts_histories_into_parts),
+        cmocka_unit_test(cuts_histories_of_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
