@@ -57,21 +57,69 @@ def _drawn_times(traced: "Trace", i: int) -> tuple[float, float]:
     return max(float(time[0]), start - margin), min(float(time[-1]), end + margin)
 
 
+_SUB_IMPACTS = ("black", "C3", "C9", "C8")
+_TANGENTS = (("C2", "along the first tangent"), ("C4", "along the second tangent"))
+
+
+def _friction(traced: "Trace", i: int, on: Any, time: Any, panels: Sequence[Any]) -> None:
+    """Slip, tangential force within Coulomb's limit, and its way in Coulomb's circle."""
+    contact, mu = traced.contacts[i], traced.reply.contacts[i].friction
+    slip, force, circle = panels
+    limit = mu * contact.force
+    both = bool(np.abs(contact.slip_2).max() > 1e-6 * np.abs(contact.slip_1).max())
+    slips = (contact.slip_1, contact.slip_2)
+    forces = (contact.force_tangential_1, contact.force_tangential_2)
+    force.fill_between(time, -limit[on], limit[on], color="#d8d8d8", linewidth=0, label="within Coulomb's limit")
+    for (colour, name), speed, pull in list(zip(_TANGENTS, slips, forces))[: 2 if both else 1]:
+        slip.plot(time, speed[on], color=colour, linewidth=1.0, label=name)
+        force.plot(time, pull[on], color=colour, linewidth=1.0, label=name)
+    # one line for each sub-impact, where the normal force is more than hardly anything
+    circle.add_patch(_circle())
+    subs = [(k + 1, sub) for k, sub in enumerate(traced.reply.contacts[i].sub_impacts) if not sub["negligible"]]
+    for k, (number, sub) in enumerate(subs):
+        there = (contact.time >= sub["start"]) & (contact.time <= sub["end"]) & (limit > 0.01 * mu * sub["peak_force"])
+        colour = _SUB_IMPACTS[k % len(_SUB_IMPACTS)]
+        label = f"sub-impact {number}" if len(subs) <= len(_SUB_IMPACTS) else None
+        circle.plot(*(one[there] / limit[there] for one in forces), color=colour, linewidth=1.0, label=label)
+    circle.set(title="tangential force over its limit", xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), aspect="equal", xlabel="first tangent", xticks=(-1, 0, 1), yticks=(-1, 0, 1))
+
+
+def _circle() -> Any:
+    from matplotlib.patches import Circle
+
+    return Circle((0.0, 0.0), 1.0, fill=False, color="#808080", linewidth=0.8)
+
+
+def _slides(traced: "Trace", i: int) -> bool:
+    return len(traced.contacts[i].slip_1) > 0
+
+
+def _panels(figure: Any, count: int, names: Sequence[str], sliding: bool) -> Any:
+    """A row for each name and a column for each contact; with friction a row of circles below."""
+    rows = len(names) + (1 if sliding else 0)
+    heights = [1.0] * len(names) + ([1.5] if sliding else [])
+    return figure.subplots(rows, count, squeeze=False, height_ratios=heights)
+
+
 def trace(traced: "Trace", figure: Any) -> Any:
-    """A column for each contact: the bodies' displacements and velocities, the force, the indentation."""
+    """A column for each contact: the bodies' displacements and velocities, the force, the indentation; where any has friction
+    also its slip, the tangential force within its limit, and Coulomb's circle."""
     if not traced.contacts:
         raise ValueError(f"{traced.reply.status}: {traced.reply.message}: there are no histories to plot")
     count = len(traced.contacts)
     names = traced.names or (("a", "b"),) * count
     colours = {name: f"C{k}" for k, name in enumerate(dict.fromkeys(one for pair in names for one in pair))}
-    figure = _figure(figure, (8.0 + 3.0 * (count - 1), 9.0))
-    rows = figure.subplots(4, count, squeeze=False)
+    sliding = any(_slides(traced, i) for i in range(count))
+    labels = ["displacement, um", "velocity, m/s", "force, N", "indentation, um"]
+    labels += ["slip, m/s", "tangential force, N"] if sliding else []
+    figure = _figure(figure, (8.0 + 3.0 * (count - 1), 16.0 if sliding else 9.0))
+    rows = _panels(figure, count, labels, sliding)
     for i, contact in enumerate(traced.contacts):
         # each row scales to what is on the axis of time
         low, high = _drawn_times(traced, i)
         on = (contact.time >= low) & (contact.time <= high)
         time = 1e3 * contact.time[on]
-        displacement, velocity, force, depth = rows[:, i]
+        displacement, velocity, force, depth = rows[:4, i]
         for values, panel, scale in (
             ((contact.displacement_a, contact.displacement_b), displacement, 1e6),
             ((contact.velocity_a, contact.velocity_b), velocity, 1.0),
@@ -86,11 +134,19 @@ def trace(traced: "Trace", figure: Any) -> Any:
         result = traced.reply.contacts[i]
         subs = f"{result.sub_impact_count} sub-impact{'' if result.sub_impact_count == 1 else 's'}"
         displacement.set(title=f"{' on '.join(names[i])}: e = {result.restitution:.4f}, {subs}")
-        for panel, label in zip(rows[:, i], ("displacement, um", "velocity, m/s", "force, N", "indentation, um")):
+        lowest = rows[len(labels) - 1 if _slides(traced, i) else 3, i]
+        for panel, label in zip(rows[:, i], labels):
             panel.set(ylabel=label if i == 0 else None, xlim=(1e3 * low, 1e3 * high))
-            panel.tick_params(labelbottom=panel is depth)
-        depth.set(xlabel="time, ms")
-    _legend(figure, [*rows[0], *rows[1]])
+            panel.tick_params(labelbottom=panel is lowest)
+        lowest.set(xlabel="time, ms")
+        if sliding and i == 0:
+            rows[-1, 0].set(ylabel="second tangent")
+        if _slides(traced, i):
+            _friction(traced, i, on, time, rows[4:, i])
+        else:
+            for panel in rows[4:, i]:
+                panel.set_axis_off()
+    _legend(figure, rows.flat)
     return figure
 
 

@@ -91,8 +91,9 @@ class Trace:
         return _tables.stack(parts, ("contact", *names))
 
     def plot(self, figure: Any = None) -> Any:
-        """Draws a column for each contact: displacements and velocities of the bodies, the force, the indentation, from
-        the first of its sub-impacts to a quarter of their time after the last.
+        """Draws a column for each contact: displacements and velocities of the bodies, the force, the indentation, with
+        friction the slip, the tangential force and its way in Coulomb's circle, from the first of its sub-impacts to a
+        quarter of their time after the last.
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.trace(self, figure)

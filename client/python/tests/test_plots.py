@@ -101,6 +101,27 @@ class Plots(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "UNKNOWN_BODY: .*no histories"):
             percuss.trace(refused, self.local).plot()
 
+    def test_trace_with_friction(self) -> None:
+        question = self.question()
+        question.bodies[0].velocity = np.asarray(question.bodies[0].velocity) + (0.1, 0.08, 0.0)
+        question.contacts[0].friction = 0.3
+        traced = percuss.trace(question, self.local)
+        figure = traced.plot()
+        axes = self.rendered(figure)
+        self.assertEqual([one.get_ylabel() for one in axes[4:]], ["slip, m/s", "tangential force, N", "second tangent"])
+        (contact,), (result,) = traced.contacts, traced.reply.contacts
+        on = contact.time <= 1.25 * result.end_time
+        self.drawn(axes[4], contact.slip_1[on])
+        self.drawn(axes[4], contact.slip_2[on])
+        self.drawn(axes[5], contact.force_tangential_1[on])
+        self.drawn(axes[5], contact.force_tangential_2[on])
+        # a line for each sub-impact within the circle, along both tangents at last on it
+        self.assertEqual((len(axes[6].get_lines()), result.sub_impact_count), (2, 2))
+        radius = np.concatenate([np.hypot(*line.get_data()) for line in axes[6].get_lines()])
+        self.assertTrue(0.999 < radius.max() <= 1.0 + 1e-9)
+        names = [text.get_text() for text in figure.legends[0].get_texts()]
+        self.assertEqual(names[3:], ["along the first tangent", "along the second tangent", "within Coulomb's limit", "sub-impact 1", "sub-impact 2"])
+
     def test_time_fits_the_contacts(self) -> None:
         """A short touch is not a stroke at the edge of what its beam does afterwards."""
         file = Path(tempfile.mkdtemp()) / "cantilever.yaml"
