@@ -9,11 +9,16 @@
 #include "sweep_output.h"
 
 /* Pixels of one body's panels and the axis before the first; curves have six colours. */
-enum { WIDTH = 900, NARROW = 560, AXIS = 100, GAP = 30, HEIGHT = 860, COLOURS = 6 };
+enum { WIDTH = 900, NARROW = 560, AXIS = 100, GAP = 30, COLOURS = 6 };
 
-/* Shares of the height and lower edges of the panels: restitution, with room for the legend, over
- * numbers of sub-impacts. */
-static const double HIGH = 0.565, LOW = 0.35, UPPER = 0.365, LOWER = 0.01;
+/* Pixels: heights and lower edges of the panels: restitution, with room for the legend, over
+ * numbers of sub-impacts. Between them, with friction, the tangential impulse and restitution. */
+enum { HEIGHT = 860, HIGH = 486, LOW = 301, UPPER = 314, LOWER = 9, TANGENTIAL = 230 };
+static const char *const tangential_labels[2] = {"tangential impulse / mN s",
+                                                 "tangential restitution"};
+
+/* Restitutions are drawn on an axis of at least this: an elastic impact's errors are rounding. */
+static const double LEAST_RESTITUTION = 0.05;
 
 static bool bodies_differ(const struct sweep_points *points)
 {
@@ -37,18 +42,37 @@ static double place_of(const struct sweep_points *points, const struct sweep_row
     return points->by_angle ? row->angle : row->speed;
 }
 
+static bool slides(const struct sweep_points *points)
+{
+    for (size_t k = 0; k < points->curve_count; k++)
+        for (unsigned i = 0; i < points->curves[k].done; i++) {
+            const double *impulse = points->curves[k].rows[i].impulse_tangential;
+            if (fabs(impulse[0]) > 0.0 || fabs(impulse[1]) > 0.0)
+                return true;
+        }
+    return false;
+}
+
 static void write_curve(struct plot *plot, const struct sweep_points *points, size_t k)
 {
     char name[PLOT_NAME];
     snprintf(name, sizeof name, "curve_%zu", k + 1);
-    plot_table(plot, name,
-               points->by_angle ? "angle,restitution,error,sub_impacts,significant"
-                                : "speed,restitution,error,sub_impacts,significant");
+    bool friction = slides(points);
+    char columns[160];
+    snprintf(columns, sizeof columns, "%s,restitution,error,sub_impacts,significant%s",
+             points->by_angle ? "angle" : "speed",
+             friction ? ",impulse_tangential_1,tangential_restitution,restitution_kinematic" : "");
+    plot_table(plot, name, columns);
     for (unsigned i = 0; i < points->curves[k].done; i++) {
         const struct sweep_row *row = &points->curves[k].rows[i];
-        if (row->sub_impacts > 0)
-            fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u\n", place_of(points, row), row->restitution,
-                    isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
+        if (row->sub_impacts == 0)
+            continue;
+        fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u", place_of(points, row), row->restitution,
+                isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
+        if (friction)
+            fprintf(plot->data, ",%.9g,%.9g,%.9g", row->impulse_tangential[0],
+                    row->tangential_restitution, row->restitution_kinematic);
+        putc('\n', plot->data);
     }
 }
 
@@ -67,11 +91,18 @@ static void write_measured(struct plot *plot, const struct sweep_points *points,
 /* The ranges of the axes of all panels. */
 struct axes {
     struct plot_range speed, restitution, count;
+    struct plot_range tangential[2]; /* impulse, mN s, and restitution */
+    bool friction, kinematic;        /* the latter: the restitutions differ */
 };
 
 static struct axes take_axes(const struct sweep_points *points)
 {
-    struct axes axes = {PLOT_NOTHING, PLOT_NOTHING, {0.0, 1.0}};
+    static const double same = 1e-3;
+    struct axes axes = {.speed = PLOT_NOTHING,
+                        .restitution = PLOT_NOTHING,
+                        .count = {0.0, 1.0},
+                        .tangential = {{0.0, 0.0}, {0.0, 0.0}},
+                        .friction = slides(points)};
     for (size_t k = 0; k < points->curve_count; k++)
         for (unsigned i = 0; i < points->curves[k].done; i++) {
             const struct sweep_row *row = &points->curves[k].rows[i];
@@ -80,6 +111,13 @@ static struct axes take_axes(const struct sweep_points *points)
             plot_range_take(&axes.restitution, row->restitution - error);
             plot_range_take(&axes.restitution, row->restitution + error);
             plot_range_take(&axes.count, row->sub_impacts);
+            if (!axes.friction)
+                continue;
+            plot_range_take(&axes.tangential[0], 1e3 * row->impulse_tangential[0]);
+            plot_range_take(&axes.tangential[1], row->tangential_restitution);
+            plot_range_take(&axes.restitution, row->restitution_kinematic);
+            axes.kinematic =
+                axes.kinematic || fabs(row->restitution_kinematic - row->restitution) > same;
         }
     for (size_t k = 0; k < points->measured_count; k++)
         for (size_t i = 0; i < points->measured[k].set.count; i++) {
@@ -89,6 +127,11 @@ static struct axes take_axes(const struct sweep_points *points)
             plot_range_take(&axes.count, impact->sub_impacts);
         }
     axes.count.high += 0.5;
+    double more = 0.5 * (LEAST_RESTITUTION - (axes.restitution.high - axes.restitution.low));
+    if (more > 0.0 && axes.restitution.high >= axes.restitution.low) {
+        axes.restitution.low -= more;
+        axes.restitution.high += more;
+    }
     return axes;
 }
 
@@ -140,8 +183,8 @@ static void write_title(const struct plot *plot, const struct group *group, size
     plot_text(plot, title);
 }
 
-/* Restitution with its error. */
-static void write_restitution(const struct plot *plot, const struct group *group)
+/* Restitution with its error; with friction the kinematic one where it is another. */
+static void write_restitution(const struct plot *plot, const struct group *group, bool kinematic)
 {
     const char *comma = "plot ";
     for (size_t k = 0; k < group->points->curve_count; k++) {
@@ -153,9 +196,29 @@ static void write_restitution(const struct plot *plot, const struct group *group
                 "@curve_%zu using 1:2 with linespoints lt %zu lw 1 ps 0.6 title ",
                 comma, k + 1, colour_of(group, k), k + 1, colour_of(group, k));
         write_title(plot, group, k);
+        if (kinematic)
+            fprintf(plot->script, ", @curve_%zu using 1:8 with lines lt %zu lw 1 dt (6,5) notitle",
+                    k + 1, colour_of(group, k));
         comma = ", ";
     }
+    if (kinematic)
+        fputs(", keyentry with lines lt 6 lw 1 dt (6,5) title 'kinematic'", plot->script);
     write_points(plot, group, 2);
+    fputc('\n', plot->script);
+}
+
+/* The tangential impulse or restitution. */
+static void write_tangential(const struct plot *plot, const struct group *group, int which)
+{
+    const char *comma = "plot ";
+    for (size_t k = 0; k < group->points->curve_count; k++) {
+        if (!holds(group, k))
+            continue;
+        fprintf(plot->script,
+                "%s@curve_%zu using 1:($%d*%g) with linespoints lt %zu lw 1 ps 0.6 notitle", comma,
+                k + 1, 6 + which, which == 0 ? 1e3 : 1.0, colour_of(group, k));
+        comma = ", ";
+    }
     fputc('\n', plot->script);
 }
 
@@ -195,27 +258,58 @@ static void write_counts(const struct plot *plot, const struct group *group)
     fputc('\n', plot->script);
 }
 
-/* Both panels of the group that stands there. */
+/* Origin and size of a panel, in pixels. */
+static void set_panel(const struct plot *plot, double lower, double height)
+{
+    fprintf(plot->script, "set origin 0,%.6g\nset size 1,%.6g\n", lower / plot->height,
+            height / plot->height);
+}
+
+/* The body of a group, and of a sweep over the angle the speed and the coefficient that was given.
+ */
+static void write_subtitle(const struct plot *plot, const struct group *group, double middle)
+{
+    const struct sweep_points *points = group->points;
+    char text[PERCUSS_ID_SIZE + 64];
+    int length = snprintf(text, sizeof text, "%s", group->b ? group->b : "");
+    if (points->by_angle)
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s%.6g m/s",
+                           length > 0 ? ", " : "", points->speeds[0]);
+    if (points->friction > 0.0)
+        length += snprintf(text + length, sizeof text - (size_t)length, "%sfriction %.4g",
+                           length > 0 ? ", " : "", points->friction);
+    if (length == 0)
+        return;
+    fputs("set label 1 ", plot->script);
+    plot_text(plot, text);
+    fprintf(plot->script, " at screen %.6g,%.6g center\n", middle, 1.0 - 43.0 / plot->height);
+}
+
+/* The panels of the group that stands there. */
 static void write_group(const struct plot *plot, const struct group *group, const struct axes *axes,
                         double left, double right)
 {
     fprintf(plot->script, "set lmargin at screen %.6g\nset rmargin at screen %.6g\n", left, right);
-    fprintf(plot->script, "set origin 0,%g\nset size 1,%g\nset format x ''\nunset xlabel\n", UPPER,
-            HIGH);
+    bool first = left * plot->width < AXIS + 1;
+    set_panel(plot, UPPER + (axes->friction ? 2 * TANGENTIAL : 0), HIGH);
+    fputs("set format x ''\nunset xlabel\n", plot->script);
     plot_range_set(plot, "xrange", &axes->speed, 0.02);
     plot_range_set(plot, "yrange", &axes->restitution, 0.05);
-    if (group->b) {
-        fputs("set label 1 ", plot->script);
-        plot_text(plot, group->b);
-        fprintf(plot->script, " at screen %.6g,0.95 center\n", 0.5 * (left + right));
+    write_subtitle(plot, group, 0.5 * (left + right));
+    write_restitution(plot, group, axes->kinematic);
+    fputs("unset label 1\n", plot->script);
+    for (int which = 0; which < 2 && axes->friction; which++) {
+        set_panel(plot, UPPER + (1 - which) * TANGENTIAL, TANGENTIAL);
+        if (first)
+            fprintf(plot->script, "set ylabel '%s'\n", tangential_labels[which]);
+        plot_range_set(plot, "yrange", &axes->tangential[which], 0.05);
+        write_tangential(plot, group, which);
     }
-    write_restitution(plot, group);
-    fprintf(plot->script,
-            "unset label 1\nset origin 0,%g\nset size 1,%g\nset format x '%%g'\n"
-            "set xlabel '%s'\nset ytics 1\n",
-            LOWER, LOW, group->points->by_angle ? "angle / degrees" : "speed / (m/s)");
+    set_panel(plot, LOWER, LOW);
+    fprintf(plot->script, "set format x '%%g'\nset xlabel '%s'\nset ytics 1\n",
+            group->points->by_angle ? "angle / degrees" : "speed / (m/s)");
     plot_range_set(plot, "yrange", &axes->count, 0.0);
-    fputs(left * plot->width > AXIS + 1 ? "" : "set ylabel 'sub-impacts'\n", plot->script);
+    fputs(first ? "set ylabel 'sub-impacts'\n" : "", plot->script);
     write_counts(plot, group);
     /* the next ones share the axes of the first */
     fputs("set ytics autofreq\nunset ylabel\nset format y ''\n", plot->script);
@@ -248,14 +342,15 @@ int sweep_plot(const struct plot_output *output, const struct sweep_points *poin
     const char *bodies[PLOT_TABLES];
     size_t groups = list_groups(points, bodies);
     unsigned width = groups > 1 ? NARROW * (unsigned)groups : WIDTH;
-    int code = plot_begin(&plot, output, AXIS + width, HEIGHT);
+    const struct axes axes = take_axes(points);
+    int code =
+        plot_begin(&plot, output, AXIS + width, HEIGHT + (axes.friction ? 2 * TANGENTIAL : 0));
     if (code != EXIT_ANSWERED)
         return code;
     for (size_t k = 0; k < points->curve_count; k++)
         write_curve(&plot, points, k);
     for (size_t k = 0; k < points->measured_count; k++)
         write_measured(&plot, points, k);
-    const struct axes axes = take_axes(points);
     fputs("set multiplot title ", plot.script);
     write_heading(&plot, points);
     fputs("\nset ylabel 'restitution e'\n", plot.script);

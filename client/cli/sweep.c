@@ -729,6 +729,7 @@ static bool list_curves(struct work *work, struct percuss_client *client)
                                          .angles = work->angles,
                                          .by_angle = scene->angle_list,
                                          .askew = scene->askew,
+                                         .friction = scene->friction,
                                          .curve_count = count,
                                          .curves = work->curves,
                                          .warnings = &work->tally,

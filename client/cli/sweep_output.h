@@ -69,6 +69,7 @@ struct sweep_points {
     const double *speeds, *angles; /* of each; degrees */
     bool by_angle;                 /* these differ, else the speeds */
     bool askew;                    /* there are columns of the angle and of friction */
+    double friction;               /* the coefficient that was given, else NAN */
     size_t curve_count;
     const struct sweep_curve *curves;
     const struct tally *warnings; /* of all points */
@@ -95,7 +96,8 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
 void sweep_print_json(const struct sweep_points *points);
 
 /* The restitution against the speed, or the angle, with its estimated error, the number of
- * sub-impacts below. Exit code; complains. */
+ * sub-impacts below; with friction the tangential impulse and restitution between them. Exit code;
+ * complains. */
 int sweep_plot(const struct plot_output *output, const struct sweep_points *points);
 
 #endif

@@ -23,7 +23,7 @@
 /* Before a loop over more arrays than a compiler tells apart while it runs: none of them overlap.
  */
 #ifdef __clang__
-#define VECTOR_APART _Pragma("clang loop vectorize(assume_safety)")
+#define VECTOR_APART
 #else
 #define VECTOR_APART _Pragma("GCC ivdep")
 #endif

@@ -124,6 +124,57 @@ picture both "al-rod-1|al-rod-2|hertz|auto|points.csv" sweep --a steel-sphere --
 expect 2 percuss sweep $pair --speed 0.1:0.2:2 --measured "al-rod=$data/beam.csv" --plot "$work/none.pdf"
 says "a body that --b names is needed before the ="
 
+say "with friction the tangential force within its limits, the slip, and each sub-impact larger"
+askew="--a steel-sphere --b al-beam --angle 30 --friction 0.3"
+picture friction "normal force|limit|tangential force|slip / (m/s)|2 sub-impacts, friction 0.3|1 at 0 ms: reversed|2 at 4.86 ms: slid" \
+    query $askew --speed 0.3
+head -n 1 "$work/friction/impact_1_1.csv" |
+    grep -qx 'time,force,displacement_a,displacement_b,velocity_a,velocity_b,limit,force_tangential_1,force_tangential_2,slip_1,slip_2' ||
+    fail "the columns have other names"
+# mN s of each: the second one slides backward
+for blow in 1 2; do
+    awk -F, 'NR > 2 { sum += 500 * ($1 - t) * ($3 + f) } NR > 1 { t = $1; f = $3; if ($3 * $3 > $2 * $2 * (1 + 1e-8)) beyond = 1 }
+        END { printf "%.2f ", sum; exit beyond }' "$work/friction/sub_impact_${blow}_1.csv" || fail "beyond Coulomb's limit"
+done >"$work/blows"
+[ "$(cat "$work/blows")" = "-7.10 2.36 " ] || fail "tangential impulses drawn: $(cat "$work/blows")"
+! grep -q circle "$work/friction/plot.gp" || fail "a circle of forces along one line"
+picture slides "0.3 m/s: e = 0.2938, 2 sub-impacts, friction 0.3|0.2 m/s: e = 0.6205" query $askew --speed 0.3 --speed 0.2
+picture slid_models "al-beam, hertz|al-beam, auto" query $askew --speed 0.3 --contact-model hertz --contact-model auto
+
+say "along two tangents Coulomb's circle as well"
+cat >two.json <<END
+{"bodies": [{"id": "steel-sphere", "position": [0.1, 0, 0.025], "velocity": [0.12, 0.09, -0.26]}, {"id": "al-beam"}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.1, 0, 0.01], "normal": [0, 0, 1], "friction": 0.3}]}
+END
+picture circle "along the first tangent|along the second|force along the first / limit|along the second / limit|3 sub-impacts" \
+    query --request two.json
+grep -q 'circle at 0,0 size 1' "$work/circle/plot.gp" || fail "no circle"
+awk -F, 'NR > 1 && $5 != "nan" { r = $5 * $5 + $6 * $6; if (r > most) most = r } END { exit !(most > 0.99 && most < 1 + 1e-7) }' \
+    "$work/circle/sub_impact_1_1.csv" || fail "not within the circle, or never on it"
+head -n 1 "$work/impact/impact_1_1.csv" | grep -q 'slip\|limit' && fail "friction in a picture without it"
+
+say "a sweep with friction: tangential impulse and restitution; where they differ both restitutions"
+picture angles "0.3 m/s, friction 0.3|tangential impulse / mN s|tangential restitution|angle / degrees" sweep --a steel-sphere \
+    --b steel-sphere --speed 0.3 --angle 5:65:13 --friction 0.3
+grep -q kinematic "$work/angles/plot.gp" && fail "two restitutions of two balls"
+[ "$(head -n 1 "$work/angles/curve_1.csv")" = "angle,restitution,error,sub_impacts,significant,impulse_tangential_1,tangential_restitution,restitution_kinematic" ] ||
+    fail "the columns have other names"
+awk -F, '$1 == 45 { found = $6 < -4.8e-3 && $6 > -5e-3 && $7 > 0.46 && $7 < 0.47 } END { exit !found }' \
+    "$work/angles/curve_1.csv" || fail "not the tangential impulse and restitution at 45 degrees"
+cat >short.yaml <<END
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.015}
+  short: {shape: beam, material: steel, radius: 0.01, length: 0.1}
+  long: {shape: beam, material: steel, radius: 0.01, length: 1}
+END
+picture short "0.3 m/s, friction 0.3|kinematic|tangential restitution" sweep --local --catalogue short.yaml --a ball --b short \
+    --speed 0.3 --angle 20:60:3 --friction 0.3 --at 0.9
+picture askew_groups "short, 0.3 m/s, friction 0.3|long, 0.3 m/s, friction 0.3|hertz|auto" sweep --local --catalogue short.yaml \
+    --a ball --b short --b long --speed 0.3 --angle 20:60:3 --friction 0.3 --contact-model hertz --contact-model auto
+grep -q impulse_tangential "$work/bodies/curve_1.csv" && fail "friction in a sweep without it"
+
 say "measured and simulated impacts on areas A to D, which may reach below 0"
 picture compare "measured|simulated|A to D: ± 0.5, 1, 1.5, 2 σ|share of impacts below" compare "$data/beam.csv" $pair
 for letter in A B C D; do
