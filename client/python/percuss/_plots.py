@@ -66,7 +66,10 @@ def _friction(traced: "Trace", i: int, on: Any, time: Any, panels: Sequence[Any]
     contact, mu = traced.contacts[i], traced.reply.contacts[i].friction
     slip, force, circle = panels
     limit = mu * contact.force
-    both = bool(np.abs(contact.slip_2).max() > 1e-6 * np.abs(contact.slip_1).max())
+    # less is rounding
+    rates = max(float(np.abs(one).max()) for one in (contact.slip_1, contact.gap_rate))
+    both = bool(np.abs(contact.slip_2).max() > 1e-6 * rates)
+    slip.update_datalim([(time[0], -0.01 * rates), (time[0], 0.01 * rates)])
     slips = (contact.slip_1, contact.slip_2)
     forces = (contact.force_tangential_1, contact.force_tangential_2)
     force.fill_between(time, -limit[on], limit[on], color="#d8d8d8", linewidth=0, label="within Coulomb's limit")
