@@ -38,7 +38,7 @@ struct layout {
     unsigned height;
     double heights[PANELS], origins[PANELS];
 };
-static const struct layout frictionless = {3, 960, {403, 259, 240, 0}, {494, 245, 10, 0}};
+static const struct layout frictionless = {3, 960, {403.2, 259.2, 240}, {494.4, 244.8, 9.6}};
 static const struct layout sliding = {4, 1160, {383, 229, 240, 230}, {714, 485, 240, 10}};
 
 /* Below them, with room of their own in pixels: the sub-impacts with friction beside each other,
@@ -86,7 +86,7 @@ static bool slides(const struct impact_picture *picture)
     return true;
 }
 
-/* Whether anything happens along the second tangent. */
+/* Whether anything but rounding happens along the second tangent. */
 static bool turns(const struct impact_picture *picture)
 {
     static const double nothing = 1e-6;
@@ -94,7 +94,7 @@ static bool turns(const struct impact_picture *picture)
         const struct percuss_contact_trace *trace = trace_of(&picture->runs[k]);
         double first = 0.0, second = 0.0;
         for (size_t i = 0; i < trace->count; i++) {
-            first = fmax(first, fabs(trace->slip_1[i]));
+            first = fmax(first, fmax(fabs(trace->slip_1[i]), fabs(trace->gap_rate[i])));
             second = fmax(second, fabs(trace->slip_2[i]));
         }
         if (second > nothing * first)
@@ -204,6 +204,7 @@ static void take_run(struct axes *axes, const struct impact_run *run)
 
 static struct axes take_axes(const struct impact_picture *picture)
 {
+    static const double least_slip = 0.1; /* of the velocities: less is rounding */
     struct axes axes = {PLOT_NOTHING, {PLOT_NOTHING, PLOT_NOTHING, PLOT_NOTHING, PLOT_NOTHING}};
     const size_t count = picture->speed_count * picture->model_count;
     /* the time of all of them, then the numbers of each panel */
@@ -216,6 +217,9 @@ static struct axes take_axes(const struct impact_picture *picture)
         take_measured(&axes, picture, speed);
     for (size_t k = 0; k < count; k++)
         take_run(&axes, &picture->runs[k]);
+    double least = least_slip * (axes.values[VELOCITY].high - axes.values[VELOCITY].low);
+    plot_range_take(&axes.values[SLIP], least);
+    plot_range_take(&axes.values[SLIP], -least);
     return axes;
 }
 
@@ -245,10 +249,27 @@ static void write_run(struct plot *plot, const struct impact_picture *picture, s
     }
 }
 
-/* In the units of the panels: ms; um, m/s, N, m/s. */
-static const double scales[PANELS] = {1e6, 1.0, 1.0, 1.0};
-static const char *const labels[PANELS] = {"displacement / µm", "velocity / (m/s)",
-                                           "contact force / N", "slip / (m/s)"};
+/* In the units of the panels: ms; um, m/s, N, m/s. Slow velocities in mm/s: the numbers of an axis
+ * have their room. */
+struct unit {
+    double scale;
+    const char *label;
+};
+
+static struct unit unit_of(const struct axes *axes, int panel)
+{
+    static const double slow = 0.05;
+    static const struct unit units[PANELS] = {{1e6, "displacement / µm"},
+                                              {1.0, "velocity / (m/s)"},
+                                              {1.0, "contact force / N"},
+                                              {1.0, "slip / (m/s)"}};
+    const struct plot_range *values = &axes->values[panel];
+    bool small = values->high - values->low < slow;
+    if (small && panel == VELOCITY)
+        return (struct unit){1e3, "velocity / (mm/s)"};
+    return small && panel == SLIP ? (struct unit){1e3, "slip / (mm/s)"} : units[panel];
+}
+
 /* Columns of the tables. */
 enum { COLUMN_FORCE = 2, COLUMN_LIMIT = 7, COLUMN_TANGENTIAL = 8, COLUMN_SLIP = 10 };
 
@@ -256,8 +277,8 @@ static void set_ranges(const struct plot *plot, const struct axes *axes, int pan
 {
     struct plot_range time = {1e3 * axes->time.low, 1e3 * axes->time.high};
     struct plot_range values = axes->values[panel];
-    values.low *= scales[panel];
-    values.high *= scales[panel];
+    values.low *= unit_of(axes, panel).scale;
+    values.high *= unit_of(axes, panel).scale;
     plot_range_set(plot, "xrange", &time, 0.02);
     plot_range_set(plot, "yrange", &values, 0.05);
 }
@@ -275,7 +296,7 @@ static void write_title(const struct plot *plot, const struct impact_run *run, i
 
 /* Measured points of both bodies, below the simulated lines; the legend's are large. */
 static void write_points(const struct plot *plot, const struct impact_picture *picture,
-                         size_t speed, int panel)
+                         size_t speed, const struct axes *axes, int panel)
 {
     const struct impact_measured *measured = &picture->measured[speed];
     const struct impact_run *run = &picture->runs[speed * picture->model_count];
@@ -285,7 +306,7 @@ static void write_points(const struct plot *plot, const struct impact_picture *p
         fprintf(plot->script,
                 "@measured_%zu using ($1*1e3):($%d*%g) with points pt 7 ps 0.4 lc rgb '%s' "
                 "notitle, ",
-                speed + 1, 3 + 2 * panel + which, scales[panel], pale[which]);
+                speed + 1, 3 + 2 * panel + which, unit_of(axes, panel).scale, pale[which]);
         if (panel != DISPLACEMENT)
             continue;
         fprintf(plot->script, "keyentry with points pt 7 ps 1 lc rgb '%s'", pale[which]);
@@ -310,7 +331,7 @@ static const char *const tangent_names[2][2] = {{"tangential force", ""},
 
 /* Coulomb's limits of the first model, and the tangential force or the slip of every one. */
 static void write_tangential(const struct plot *plot, const struct impact_picture *picture,
-                             size_t speed, int panel)
+                             size_t speed, const struct axes *axes, int panel)
 {
     bool both = turns(picture);
     for (size_t m = 0; m < picture->model_count; m++) {
@@ -324,15 +345,16 @@ static void write_tangential(const struct plot *plot, const struct impact_pictur
         for (int t = 0; t < (both ? 2 : 1); t++) {
             const char *title = m > 0 || (panel == SLIP && !both) ? NULL : tangent_names[both][t];
             fputs(panel == FORCE || m > 0 || t > 0 ? ", " : "", plot->script);
-            write_line(plot, table, (panel == FORCE ? COLUMN_TANGENTIAL : COLUMN_SLIP) + t, 1.0,
-                       styles[m % STYLES], tangent_colours[t][m % 2], title);
+            write_line(plot, table, (panel == FORCE ? COLUMN_TANGENTIAL : COLUMN_SLIP) + t,
+                       unit_of(axes, panel).scale, styles[m % STYLES], tangent_colours[t][m % 2],
+                       title);
         }
     }
 }
 
 /* A line for each model and body, or for the force. */
 static void write_lines(const struct plot *plot, const struct impact_picture *picture, size_t speed,
-                        int panel)
+                        const struct axes *axes, int panel)
 {
     for (size_t m = 0; m < picture->model_count && panel != SLIP; m++) {
         const struct impact_run *run = &picture->runs[speed * picture->model_count + m];
@@ -343,7 +365,7 @@ static void write_lines(const struct plot *plot, const struct impact_picture *pi
             fprintf(
                 plot->script, "%s@impact_%zu_%zu using ($1*1e3):($%d*%g) with lines %s lc rgb '%s'",
                 m + (size_t)which > 0 ? ", " : "", speed + 1, m + 1,
-                panel == FORCE ? COLUMN_FORCE : 3 + 2 * panel + which, scales[panel],
+                panel == FORCE ? COLUMN_FORCE : 3 + 2 * panel + which, unit_of(axes, panel).scale,
                 styles[m % STYLES], panel == FORCE ? dark[m % STYLES] : colours[which][m % STYLES]);
             if (panel == DISPLACEMENT)
                 write_title(plot, run, which, model);
@@ -354,7 +376,7 @@ static void write_lines(const struct plot *plot, const struct impact_picture *pi
         }
     }
     if (panel >= FORCE && slides(picture))
-        write_tangential(plot, picture, speed, panel);
+        write_tangential(plot, picture, speed, axes, panel);
     fputc('\n', plot->script);
 }
 
@@ -402,13 +424,13 @@ static void write_impact(const struct plot *plot, const struct impact_picture *p
                 (below + layout->origins[panel]) / high, layout->heights[panel] / high);
         set_ranges(plot, axes, panel);
         if (speed == 0)
-            fprintf(plot->script, "set ylabel '%s'\n", labels[panel]);
+            fprintf(plot->script, "set ylabel '%s'\n", unit_of(axes, panel).label);
         if (panel == layout->panels - 1)
             fputs("set format x '%g'\nset xlabel 'time / ms'\n", plot->script);
         fputs("plot ", plot->script);
         if (panel < FORCE && speed < picture->measured_count)
-            write_points(plot, picture, speed, panel);
-        write_lines(plot, picture, speed, panel);
+            write_points(plot, picture, speed, axes, panel);
+        write_lines(plot, picture, speed, axes, panel);
         fputs("unset label 1\n", plot->script);
     }
     /* the next ones share the axes of the first */

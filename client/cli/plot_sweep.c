@@ -13,7 +13,8 @@ enum { WIDTH = 900, NARROW = 560, AXIS = 100, GAP = 30, COLOURS = 6 };
 
 /* Pixels: heights and lower edges of the panels: restitution, with room for the legend, over
  * numbers of sub-impacts. Between them, with friction, the tangential impulse and restitution. */
-enum { HEIGHT = 860, HIGH = 486, LOW = 301, UPPER = 314, LOWER = 9, TANGENTIAL = 230 };
+enum { HEIGHT = 860, TANGENTIAL = 230 };
+static const double HIGH = 485.9, LOW = 301.0, UPPER = 313.9, LOWER = 8.6;
 static const char *const tangential_labels[2] = {"tangential impulse / mN s",
                                                  "tangential restitution"};
 

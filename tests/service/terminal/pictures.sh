@@ -141,6 +141,15 @@ done >"$work/blows"
 picture slides "0.3 m/s: e = 0.2938, 2 sub-impacts, friction 0.3|0.2 m/s: e = 0.6205" query $askew --speed 0.3 --speed 0.2
 picture slid_models "al-beam, hertz|al-beam, auto" query $askew --speed 0.3 --contact-model hertz --contact-model auto
 
+# of an impact that is straight the slip is rounding, which is no mountain range
+picture straight "0.3 m/s|slip / (m/s)|friction 0.3" query --a steel-sphere --b al-beam --friction 0.3 --speed 0.3
+sed -n 's/^set yrange \[\(.*\):\(.*\)\]$/\1 \2/p' "$work/straight/plot.gp" | sed -n 4p |
+    awk '{ exit !($2 > 0.02 && $1 < -0.02) }' || fail "an axis of rounding errors"
+! grep -q circle "$work/straight/plot.gp" || fail "a circle of rounding errors"
+
+# the numbers of slow ones have room as well
+picture slow "velocity / (mm/s)|slip / (mm/s)|contact force / N" query $askew --speed 0.01
+
 say "along two tangents Coulomb's circle as well"
 cat >two.json <<END
 {"bodies": [{"id": "steel-sphere", "position": [0.1, 0, 0.025], "velocity": [0.12, 0.09, -0.26]}, {"id": "al-beam"}],
