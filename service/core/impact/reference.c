@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
+#include "contact/friction.h"
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/flight_root.h"
@@ -19,17 +21,27 @@
 
 /* A whole scene as one system of ordinary differential equations, for a general solver.
  *
- * y: [contacts] gaps, [contacts] gap rates, [contacts] impulses, 1 damping loss, then every group's
- * q and v. Root functions: per contact the local indentation, the approach rate and, where a law
- * yields, the indentation beyond the elastic limit. */
+ * y: [rows] gaps, [rows] gap rates, [rows] impulses, 1 damping loss, of each contact with friction
+ * its normal work in compression and in release, then every group's q and v. Root functions: per
+ * contact the local indentation, the approach rate and, where a law yields, the indentation beyond
+ * the elastic limit.
+ *
+ * Friction depends on the way: its force in a state is that of the cells walked from the last step
+ * that was accepted to there, straight, which is a continuous function of the state. An accepted
+ * step takes the walk to its end for good. */
 struct reference_system {
     const struct scene *scene;
+    size_t rows;
     size_t roots;                                           /* root functions of a contact */
     size_t size;                                            /* of y */
     struct motion motion;                                   /* a state unpacked */
-    double *approach, *rate, *indentation, *force, *matrix; /* [contact]; matrix: contacts^2 */
+    double *approach, *rate, *indentation, *force, *matrix; /* [row], local; matrix: contacts^2 */
     double *absolute;                                       /* [size] absolute tolerances */
     double *absolute_force; /* [contact] of a collision with all the energy, N */
+    double *duration;       /* [contact] of such a collision, s */
+    double *pressed;        /* [contact] approaches less the tangents' effect */
+    struct friction *taken; /* [frictions]: histories up to the last accepted step */
+    struct friction *trial; /* [frictions]: to the state of the last evaluation */
 };
 
 /* A root function must be finite; every indentation is smaller than this, m. */
@@ -51,32 +63,51 @@ static bool reference_system_create(struct reference_system *system, const struc
                                     struct arena *arena)
 {
     size_t n = scene->contacts;
-    *system = (struct reference_system){.scene = scene, .roots = 2};
+    size_t rows = scene_rows(scene);
+    *system = (struct reference_system){.scene = scene, .rows = rows, .roots = 2};
     /* a third root function of laws that yield */
     for (size_t c = 0; c < n; c++)
         if (scene->laws[c].operations->curve)
             system->roots = 3;
-    /* gaps, their rates, impulses, the loss, and the modes */
-    system->size = 3 * n + 1 + 2 * oscillator_count(scene);
-    system->approach = arena_take(arena, n, sizeof(double));
-    system->rate = arena_take(arena, n, sizeof(double));
-    system->indentation = arena_take(arena, n, sizeof(double));
-    system->force = arena_take(arena, n, sizeof(double));
+    /* gaps, their rates, impulses, the loss, works and the modes */
+    system->size = 3 * rows + 1 + 2 * scene->frictions + 2 * oscillator_count(scene);
+    system->approach = arena_take(arena, rows, sizeof(double));
+    system->rate = arena_take(arena, rows, sizeof(double));
+    system->indentation = arena_take(arena, rows, sizeof(double));
+    system->force = arena_take(arena, rows, sizeof(double));
     system->absolute_force = arena_take(arena, n, sizeof(double));
+    system->duration = arena_take(arena, n, sizeof(double));
+    system->pressed = arena_take(arena, n, sizeof(double));
     system->matrix = arena_take(arena, n * n, sizeof(double));
     system->absolute = arena_take(arena, system->size, sizeof(double));
     return system->approach && system->rate && system->indentation && system->force &&
-           system->absolute_force && system->matrix && system->absolute &&
-           motion_create(&system->motion, scene, arena);
+           system->absolute_force && system->duration && system->pressed && system->matrix &&
+           system->absolute && motion_create(&system->motion, scene, arena);
+}
+
+/* Places in y: the damping loss, the works of friction `i`'s contact, the modes. */
+static size_t damping_loss(const struct reference_system *system)
+{
+    return 3 * system->rows;
+}
+
+static size_t normal_work(const struct reference_system *system, size_t i)
+{
+    return 3 * system->rows + 1 + 2 * i;
+}
+
+static size_t first_mode(const struct reference_system *system)
+{
+    return normal_work(system, system->scene->frictions);
 }
 
 static void reference_system_unpack(const struct reference_system *system, const double *y,
                                     struct motion *motion)
 {
-    size_t n = system->scene->contacts;
+    size_t n = system->rows;
     memcpy(motion->gap, y, n * sizeof *y);
     memcpy(motion->gap_rate, y + n, n * sizeof *y);
-    const double *next = y + 3 * n + 1;
+    const double *next = y + first_mode(system);
     for (size_t g = 0; g < system->scene->groups; g++) {
         size_t count = system->scene->group[g].count;
         memcpy(motion->q[g], next, count * sizeof *y);
@@ -88,11 +119,11 @@ static void reference_system_unpack(const struct reference_system *system, const
 static void reference_system_pack(const struct reference_system *system,
                                   const struct motion *motion, double *y)
 {
-    size_t n = system->scene->contacts;
+    size_t n = system->rows;
     memset(y, 0, system->size * sizeof *y);
     memcpy(y, motion->gap, n * sizeof *y);
     memcpy(y + n, motion->gap_rate, n * sizeof *y);
-    double *next = y + 3 * n + 1;
+    double *next = y + first_mode(system);
     for (size_t g = 0; g < system->scene->groups; g++) {
         size_t count = system->scene->group[g].count;
         memcpy(next, motion->q[g], count * sizeof *y);
@@ -101,17 +132,132 @@ static void reference_system_pack(const struct reference_system *system,
     }
 }
 
+/* ---- Friction ---- */
+
+/* Twice the cells of the modal method (friction_step.c), whose error goes with their inverse
+ * square: the two methods do not share it. */
+static const double CELLS = 8.0;
+enum { FEWEST_CELLS = 64, MOST_CELLS = 512 };
+
+/* False: out of memory. */
+static bool frictions_create(struct reference_system *system, double accuracy, struct arena *arena)
+{
+    const struct scene *scene = system->scene;
+    size_t n = scene->frictions;
+    double cells = fmin(fmax(CELLS * pow(accuracy, -0.25), FEWEST_CELLS), MOST_CELLS);
+    if (n == 0)
+        return true;
+    system->taken = arena_take(arena, 2 * n, sizeof *system->taken);
+    if (!system->taken)
+        return false;
+    system->trial = system->taken + n;
+    for (size_t i = 0; i < n; i++) {
+        const struct scene_friction *of = &scene->friction[i];
+        if (!friction_create(&system->taken[i], of->coefficient, of->ratio, (size_t)cells, arena) ||
+            !friction_second(&system->trial[i], &system->taken[i], arena))
+            return false;
+    }
+    return true;
+}
+
+/* The cells of friction `i`, all open, at the present displacement. */
+static void friction_begin(struct reference_system *system, size_t i, double depth)
+{
+    struct friction *friction = &system->taken[i];
+    double force[2];
+    friction_touch(friction, &system->scene->laws[system->scene->friction[i].contact], depth);
+    friction_walk(friction, 0.0, system->indentation + scene_tangent(system->scene, i), force);
+    friction_copy(&system->trial[i], friction);
+}
+
+/* Reduction of a row's approach by the residual flexibility under the rows from `first` to `end`.
+ */
+static double residual_of(const struct reference_system *system, size_t row, size_t first,
+                          size_t end)
+{
+    const double *by = system->scene->residual + row * system->rows; /* symmetric */
+    double sum = 0.0;
+    for (size_t r = first; r < end; r++)
+        sum += by[r] * system->force[r];
+    return sum;
+}
+
+/* Rounds of normals and tangents in turn end with a change of the tangential forces by this share
+ * of their limit, or go on as far as rounding lets them. */
+static const double SAME_FORCE = 1e-13;
+enum { MOST_ROUNDS = 40 };
+
+/* Normals under the tangents' forces. */
+static void press_normals(struct reference_system *system)
+{
+    size_t n = system->scene->contacts;
+    for (size_t c = 0; c < n; c++)
+        system->pressed[c] = system->approach[c] - residual_of(system, c, n, system->rows);
+    contact_local_indentation(system->scene, system->pressed, system->indentation, system->force,
+                              system->matrix);
+}
+
+/* Walks friction `i` to the local displacements, then Newton's method for each of them by itself,
+ * with the slope of the cells. Returns the change of the force over its limit. */
+static double drag_tangents(struct reference_system *system, size_t i)
+{
+    const struct scene *scene = system->scene;
+    const struct scene_friction *of = &scene->friction[i];
+    struct friction *trial = &system->trial[i];
+    size_t row = scene_tangent(scene, i);
+    double *d = system->indentation + row;
+    double limit = of->coefficient * system->force[of->contact];
+    double change = 0.0;
+    friction_copy(trial, &system->taken[i]);
+    friction_walk(trial, system->indentation[of->contact], d, system->force + row);
+    for (size_t t = 0; t < 2; t++) {
+        double own = scene->residual[(row + t) * (system->rows + 1)];
+        double excess =
+            d[t] - system->approach[row + t] + residual_of(system, row + t, 0, system->rows);
+        double moved = excess / (1.0 + own * trial->resists[t]);
+        d[t] -= moved;
+        change = fmax(change, fabs(moved) * trial->resists[t]);
+    }
+    return limit > 0.0 ? change / limit : 0.0;
+}
+
+/* Local indentations, displacements and forces of all rows for their approaches. */
+static void solve_rows(struct reference_system *system)
+{
+    size_t n = system->scene->contacts;
+    for (size_t r = n; r < system->rows; r++)
+        system->indentation[r] = system->approach[r] - residual_of(system, r, 0, system->rows);
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        double pressed = 0.0, change = 0.0;
+        double before[PERCUSS_MAX_CONTACTS];
+        memcpy(before, system->force, n * sizeof *before);
+        press_normals(system);
+        for (size_t c = 0; round > 0 && c < n; c++)
+            if (system->force[c] > 0.0)
+                pressed = fmax(pressed, fabs(system->force[c] / before[c] - 1.0));
+        for (size_t i = 0; i < system->scene->frictions; i++)
+            change = fmax(change, drag_tangents(system, i));
+        if (change <= SAME_FORCE && pressed <= SAME_FORCE)
+            return;
+    }
+}
+
+/* ---- Right-hand side ---- */
+
 /* Finds motion, approaches, local indentations and forces of a state. */
 static void reference_system_forces(struct reference_system *system, const double *y)
 {
     reference_system_unpack(system, y, &system->motion);
-    for (size_t c = 0; c < system->scene->contacts; c++) {
-        motion_approach(&system->motion, system->scene, c, &system->approach[c], &system->rate[c]);
+    for (size_t r = 0; r < system->rows; r++)
+        motion_approach(&system->motion, system->scene, r, &system->approach[r], &system->rate[r]);
+    for (size_t c = 0; c < system->scene->contacts; c++)
         if (!(system->indentation[c] > 0.0))
             system->indentation[c] = fmax(0.0, system->approach[c]);
-    }
-    contact_local_indentation(system->scene, system->approach, system->indentation, system->force,
-                              system->matrix);
+    if (system->scene->frictions)
+        solve_rows(system);
+    else
+        contact_local_indentation(system->scene, system->approach, system->indentation,
+                                  system->force, system->matrix);
 }
 
 /* dy/dt and the root functions, see ode.h; `context`: the system. */
@@ -120,7 +266,7 @@ static void reference_system_rates(double t, const double *y, double *rate, void
     (void)t;
     struct reference_system *system = context;
     const struct scene *scene = system->scene;
-    size_t n = scene->contacts;
+    size_t n = system->rows;
     reference_system_forces(system, y);
     /* gaps g'' = a + W F, impulses J' = F */
     for (size_t i = 0; i < n; i++) {
@@ -130,9 +276,15 @@ static void reference_system_rates(double t, const double *y, double *rate, void
             rate[n + i] += scene->w[i * n + j] * system->force[j];
         rate[2 * n + i] = system->force[i];
     }
+    for (size_t i = 0; i < scene->frictions; i++) {
+        size_t c = scene->friction[i].contact;
+        double power = system->force[c] * y[n + c];
+        rate[normal_work(system, i)] = larger(-power, 0.0);
+        rate[normal_work(system, i) + 1] = larger(power, 0.0);
+    }
     /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and the damping loss */
     double loss = 0.0;
-    double *next = rate + 3 * n + 1;
+    double *next = rate + first_mode(system);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         for (size_t k = 0; k < group->count; k++) {
@@ -150,7 +302,7 @@ static void reference_system_rates(double t, const double *y, double *rate, void
         }
         next += 2 * group->count;
     }
-    rate[3 * n] = loss;
+    rate[damping_loss(system)] = loss;
 }
 
 static void reference_system_roots(double t, const double *y, double *values, void *context)
@@ -168,6 +320,18 @@ static void reference_system_roots(double t, const double *y, double *values, vo
     }
 }
 
+/* Gap, rate and impulse of a row with all the energy. */
+static void tolerate_row(struct reference_system *system, size_t row, double relative,
+                         double energy, double travel)
+{
+    size_t n = system->rows;
+    double w = system->scene->w[row * n + row];
+    double v = sqrt(2.0 * energy * w);
+    system->absolute[row] = relative * travel;
+    system->absolute[n + row] = relative * v;
+    system->absolute[2 * n + row] = relative * v / w;
+}
+
 /* Sets the absolute tolerances from the energy of a motion, so that they are independent of
  * units. */
 static void reference_system_tolerate(struct reference_system *system, const struct motion *motion,
@@ -175,27 +339,34 @@ static void reference_system_tolerate(struct reference_system *system, const str
 {
     const struct scene *scene = system->scene;
     size_t n = scene->contacts;
+    size_t rows = system->rows;
     /* the energy of the approaches and of vibration */
     double energy = LEAST_ENERGY;
-    for (size_t c = 0; c < n; c++) {
-        double v = scene->gap_rate[c];
-        energy += 0.5 * v * v / scene->w[c * n + c];
+    for (size_t r = 0; r < rows; r++) {
+        double v = scene->gap_rate[r];
+        energy += 0.5 * v * v / scene->w[r * rows + r];
     }
     for (size_t g = 0; g < scene->groups; g++)
         for (size_t b = 0; b < scene->bodies; b++)
             energy += motion_vibration(motion, scene, b) / (double)scene->groups;
     /* a contact with all the energy: force, gap, rate and impulse */
     for (size_t c = 0; c < n; c++) {
-        double v = sqrt(2.0 * energy * scene->w[c * n + c]);
+        double v = sqrt(2.0 * energy * scene->w[c * (rows + 1)]);
         struct impact_scale scale = impact_scale_of(scene, c, v);
         system->absolute_force[c] = scale.force;
-        system->absolute[c] = relative * scale.indentation;
-        system->absolute[n + c] = relative * v;
-        system->absolute[2 * n + c] = relative * v / scene->w[c * n + c];
+        system->duration[c] = scale.duration;
+        tolerate_row(system, c, relative, energy, scale.indentation);
     }
-    system->absolute[3 * n] = relative * energy;
+    /* its tangents slip by about the coefficient's share of the indentation */
+    for (size_t i = 0; i < 2 * scene->frictions; i++) {
+        const struct scene_friction *of = &scene->friction[i / 2];
+        double indentation = system->absolute[of->contact] / relative;
+        tolerate_row(system, n + i, relative, energy, fmin(of->coefficient, 1.0) * indentation);
+    }
+    for (size_t i = damping_loss(system); i < first_mode(system); i++)
+        system->absolute[i] = relative * energy;
     /* a mode with all the energy */
-    double *next = system->absolute + 3 * n + 1;
+    double *next = system->absolute + first_mode(system);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         for (size_t k = 0; k < group->count; k++) {
@@ -223,6 +394,15 @@ static const double NO_FORCE = 1e-9;
  * eighth of its period) is the longest step. */
 static const double LONGEST_ANGLE = 0.25 * M_PI;
 
+/* Steps while a contact with friction is closed, over the duration of a collision with all the
+ * energy: the way of a step is walked straight, which leaves an error of the second order in it. Of
+ * twelve angles of a sphere (test_reference.c) the worst tangential speed is wrong by 0.3 of the
+ * square, times the coefficient's speed: here by less than the accuracy. Longer than a hundredth
+ * cells would not follow a reversal; below a tenth of a thousandth the cells' own error is left. */
+static const double WALK = 1.0; /* times the root of the accuracy */
+static const double LONGEST_WALK = 0.01;
+static const double SHORTEST_WALK = 1e-4;
+
 /* Passes over the modes in a step: right-hand sides, and the steps that CVODE remembers. */
 static const double PASSES = 10.0;
 
@@ -232,27 +412,73 @@ struct reference {
     double accuracy;
     struct ode *ode; /* NULL: not begun */
     double *y;
-    double *opened; /* [contact] impulse when the sub-impact began */
+    double *opened; /* [row] impulse when the sub-impact began */
     double *noted;  /* [contact] impulse of which the moment is noted */
+    double longest; /* step that misses no root, s; 0: any */
 };
 
 static bool reference_create(struct reference *run, struct arena *arena)
 {
     if (!march_create(&run->march, arena) ||
-        !reference_system_create(&run->system, &run->march.scene, arena))
+        !reference_system_create(&run->system, &run->march.scene, arena) ||
+        !frictions_create(&run->system, run->accuracy, arena))
         return false;
-    run->opened = arena_take(arena, run->march.scene.contacts, sizeof(double));
+    run->opened = arena_take(arena, run->system.rows, sizeof(double));
     run->noted = arena_take(arena, run->march.scene.contacts, sizeof(double));
     run->y = arena_take(arena, run->system.size, sizeof(double));
     return run->opened && run->noted && run->y;
 }
 
+/* The longest step while contacts are closed as they are now. False: CVODE refuses. */
+static bool limit_steps(struct reference *run)
+{
+    const struct scene *scene = &run->march.scene;
+    double longest = run->longest > 0.0 ? run->longest : INFINITY;
+    double share = fmax(SHORTEST_WALK, fmin(LONGEST_WALK, WALK * sqrt(run->accuracy)));
+    for (size_t i = 0; i < scene->frictions; i++) {
+        size_t c = scene->friction[i].contact;
+        if (run->march.closed[c])
+            longest = smaller(longest, share * run->system.duration[c]);
+    }
+    return ode_set_longest_step(run->ode, isfinite(longest) ? longest : 0.0);
+}
+
+/* Indentation that a contact's cells are laid out for: by the fastest approach of all, as a group
+ * backs it, and under twice the load of an acceleration that presses. */
+static double expected_depth(const struct reference *run, size_t c)
+{
+    const struct scene *scene = &run->march.scene;
+    const struct contact_law *law = &scene->laws[c];
+    double fastest = 0.0;
+    for (size_t i = 0; i < scene->contacts; i++)
+        fastest = larger(fastest, fabs(run->system.rate[i]));
+    double load = -2.0 * scene->gap_acceleration[c] / scene->w[c * (run->system.rows + 1)];
+    double pressed = load > 0.0 ? law->operations->indentation(law, load) : 0.0;
+    return larger(impact_scale_of(scene, c, fastest).indentation, pressed);
+}
+
+/* A sub-impact begins, of which the cells may have begun to bear. */
+static void note_opening(struct reference *run, size_t c, double time)
+{
+    const struct scene *scene = &run->march.scene;
+    size_t n = run->system.rows;
+    size_t friction = scene_friction_of(scene, c);
+    memcpy(run->march.outcome->motion.gap_rate, run->y + n, n * sizeof *run->y);
+    run->opened[c] = run->y[2 * n + c];
+    for (size_t t = 0; friction < scene->frictions && t < 2; t++) {
+        size_t row = scene_tangent(scene, friction) + t;
+        run->opened[row] = run->y[2 * n + row];
+    }
+    march_open(&run->march, c, time, run->y[n + c]);
+}
+
 static void open_contact(struct reference *run, size_t c, double t)
 {
-    size_t n = run->march.scene.contacts;
+    size_t friction = scene_friction_of(&run->march.scene, c);
     run->system.indentation[c] = 0.0;
-    run->opened[c] = run->y[2 * n + c];
-    march_open(&run->march, c, t, run->y[n + c]);
+    if (friction < run->march.scene.frictions)
+        friction_begin(&run->system, friction, expected_depth(run, c));
+    note_opening(run, c, t);
 }
 
 /* The books of a contact that is closed: its largest indentation so far, at an instant. */
@@ -264,13 +490,20 @@ static void note_largest(struct reference *run, size_t c, double t)
         return;
     track->open.max_indentation = indentation;
     track->open.compression_end = t;
-    track->open.compression_impulse = run->y[2 * run->march.scene.contacts + c] - run->opened[c];
+    track->open.compression_impulse = run->y[2 * run->system.rows + c] - run->opened[c];
 }
 
 static void note_impulse(struct reference *run, size_t c)
 {
-    run->march.outcome->tracks[c].open.impulse =
-        run->y[2 * run->march.scene.contacts + c] - run->opened[c];
+    const struct scene *scene = &run->march.scene;
+    struct sub_impact *open = &run->march.outcome->tracks[c].open;
+    const double *impulse = run->y + 2 * run->system.rows;
+    size_t friction = scene_friction_of(scene, c);
+    open->impulse = impulse[c] - run->opened[c];
+    for (size_t t = 0; friction < scene->frictions && t < 2; t++) {
+        size_t row = scene_tangent(scene, friction) + t;
+        open->impulse_tangential[t] = impulse[row] - run->opened[row];
+    }
 }
 
 /* Deepens the dent where the indentation exceeds the limit. */
@@ -285,6 +518,9 @@ static void yield(struct reference *run, size_t c)
     double deeper = law->history.dent - before;
     run->y[c] += deeper;
     run->system.indentation[c] -= deeper;
+    size_t friction = scene_friction_of(run->system.scene, c);
+    if (friction < run->system.scene->frictions)
+        friction_deepen(&run->system.taken[friction], deeper);
     outcome->tracks[c].deepened += deeper;
     /* as in the modal method, but the solution goes on */
     if (!contact_bears(&run->march.scene, c, contact_law_unloading(law)))
@@ -295,7 +531,7 @@ static void yield(struct reference *run, size_t c)
 static void handle_roots(struct reference *run, double t, const int *found)
 {
     struct march *march = &run->march;
-    size_t n = march->scene.contacts;
+    size_t n = march->scene.contacts, rows = run->system.rows;
     /* contacts that open and close */
     for (size_t c = 0; c < n; c++) {
         int opens = found[run->system.roots * c];
@@ -303,7 +539,8 @@ static void handle_roots(struct reference *run, double t, const int *found)
             open_contact(run, c, t);
         } else if (opens < 0 && march->closed[c]) {
             note_impulse(run, c);
-            march_close(march, c, t, run->y[n + c]);
+            memcpy(march->outcome->motion.gap_rate, run->y + rows, rows * sizeof *run->y);
+            march_close(march, c, t, run->y[rows + c]);
         }
     }
     /* indentations at their largest: a law may yield there */
@@ -324,7 +561,7 @@ static void open_unreported(struct reference *run, double t)
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (!run->march.closed[c] && run->system.force[c] > 0.0 &&
             run->system.force[c] > NO_FORCE * run->system.absolute_force[c])
-            open_contact(run, c, t);
+            note_opening(run, c, t);
 }
 
 /* Whether vibration can cause no further contact, by the bound of the modes' amplitudes. */
@@ -370,11 +607,28 @@ static bool must_restart(const struct reference *run, const int *found)
 /* Adds the moments of a step's impulses, at its middle: it is far shorter than a contact. */
 static void note_moments(struct reference *run, double before, double now)
 {
-    size_t n = run->march.scene.contacts;
-    for (size_t c = 0; c < n; c++) {
-        double impulse = run->y[2 * n + c] - run->noted[c];
+    size_t rows = run->system.rows;
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
+        double impulse = run->y[2 * rows + c] - run->noted[c];
         run->march.outcome->tracks[c].moment += 0.5 * (before + now) * impulse;
         run->noted[c] += impulse;
+    }
+}
+
+/* A step has been accepted: the cells have come to its end, where they stick or slide. */
+static void take_walk(struct reference *run)
+{
+    struct reference_system *system = &run->system;
+    reference_system_forces(system, run->y);
+    for (size_t i = 0; i < system->scene->frictions; i++) {
+        size_t c = system->scene->friction[i].contact;
+        struct track *track = &run->march.outcome->tracks[c];
+        bool bears = system->force[c] > NO_FORCE * system->absolute_force[c];
+        friction_copy(&system->taken[i], &system->trial[i]);
+        if (!run->march.closed[c] || !bears)
+            continue;
+        track->stuck = track->stuck || system->trial[i].stuck > 0.0;
+        track->slid = track->slid || system->trial[i].stuck == 0.0;
     }
 }
 
@@ -391,6 +645,8 @@ static enum percuss_end_reason integrate(struct reference *run)
         if (event == ODE_FAILED)
             return PERCUSS_END_LIMIT;
         note_moments(run, before, *now);
+        if (march->scene.frictions)
+            take_walk(run);
         /* contacts and laws that change, from which the solver starts anew */
         if (event == ODE_ROOT) {
             handle_roots(run, *now, found);
@@ -399,6 +655,8 @@ static enum percuss_end_reason integrate(struct reference *run)
         }
         if (event == ODE_STEP)
             open_unreported(run, *now);
+        if (march->scene.frictions && !limit_steps(run))
+            return PERCUSS_END_LIMIT;
         /* the end of the window, or no touch can follow */
         bool closed = march_in_contact(march);
         if (event == ODE_REACHED)
@@ -431,18 +689,42 @@ static enum percuss_end_reason solve(void *state, size_t contact)
     });
     if (!run->ode)
         return march_fail(march, PERCUSS_INTERNAL);
-    /* contacts that touch at the start */
+    /* contacts that touch at the start, and cells of all that may without a root */
+    for (size_t r = 0; r < run->system.rows; r++)
+        motion_approach(motion, scene, r, &run->system.approach[r], &run->system.rate[r]);
+    for (size_t r = scene->contacts; r < run->system.rows; r++)
+        run->system.indentation[r] = run->system.approach[r];
+    for (size_t i = 0; i < scene->frictions; i++)
+        friction_begin(&run->system, i, expected_depth(run, scene->friction[i].contact));
     for (size_t c = 0; c < scene->contacts; c++) {
-        motion_approach(motion, scene, c, &run->system.approach[c], &run->system.rate[c]);
         double near = TOUCHING * impact_scale_of(scene, c, run->system.rate[c]).indentation;
         if (run->system.approach[c] >= -near && run->system.rate[c] > 0.0)
             open_contact(run, c, motion->time);
     }
     /* from there on, in steps that miss no root */
     double fastest = scene_highest_frequency(scene);
-    bool ready = ode_set(run->ode, motion->time, run->y) &&
-                 (fastest == 0.0 || ode_set_longest_step(run->ode, LONGEST_ANGLE / fastest));
+    run->longest = fastest > 0.0 ? LONGEST_ANGLE / fastest : 0.0;
+    bool ready = ode_set(run->ode, motion->time, run->y) && limit_steps(run);
     return ready ? integrate(run) : PERCUSS_END_LIMIT;
+}
+
+/* Loss and store of the friction, the tangents' forces, and the normal works. */
+static void end_friction(struct reference *run)
+{
+    const struct scene *scene = &run->march.scene;
+    struct impact_outcome *outcome = run->march.outcome;
+    for (size_t i = 0; i < scene->frictions; i++) {
+        const struct friction *taken = &run->system.taken[i];
+        size_t c = scene->friction[i].contact;
+        const double *work = run->y + normal_work(&run->system, i);
+        outcome->tracks[c].compressed = work[0];
+        outcome->tracks[c].released = work[1];
+        outcome->slid += taken->lost;
+        if (!run->march.closed[c])
+            continue;
+        outcome->sheared += friction_stored(taken);
+        friction_force(taken, run->march.tangential + 2 * i);
+    }
 }
 
 static void end_march(void *state)
@@ -465,7 +747,8 @@ static void end_march(void *state)
         note_impulse(run, c);
         march->indentation[c] = run->system.indentation[c];
     }
-    march->damping = run->y[3 * march->scene.contacts];
+    march->damping = run->y[damping_loss(&run->system)];
+    end_friction(run);
     /* the effort */
     unsigned long evaluations;
     ode_effort(run->ode, &evaluations, &march->outcome->steps);

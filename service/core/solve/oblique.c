@@ -176,8 +176,6 @@ enum percuss_status oblique_check(const struct problem *problem, struct fault *f
     const struct solve_options *options = &problem->request->options;
     for (size_t i = 0; i < problem->friction_count; i++) {
         size_t c = problem->friction[i].contact;
-        if (options->method == PERCUSS_METHOD_CVODE)
-            return refuse_friction(c, "the method cvode has no friction: method modal has", fault);
         if (contact_law_asked(options->contact_model)->method != CONTACT_BY_LAW)
             return refuse_friction(c, "finite elements have no friction: contact_model auto has",
                                    fault);

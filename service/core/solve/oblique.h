@@ -21,7 +21,7 @@ void oblique_turn(struct problem *problem, size_t body);
  * memory. */
 bool oblique_find_rows(struct problem *problem);
 
-/* Refuses what friction is not computed for: CVODE, finite elements. */
+/* Refuses what friction is not computed for: finite elements. */
 enum percuss_status oblique_check(const struct problem *problem, struct fault *fault);
 
 /* A contact's friction, or NULL. */
