@@ -35,9 +35,9 @@ static inline double larger(double a, double b)
 }
 
 /* Change of tangential forces, over their limits, after which they are as exact as the accuracy;
- * and the smallest. */
+ * and the smallest: a cell's mean stiffness over a short way is the quotient of two differences. */
 static const double LAST_SLIDE = 0.1;
-static const double FINEST_SLIDE = 1e-11;
+static const double FINEST_SLIDE = 1e-8;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena)
