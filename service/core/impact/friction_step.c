@@ -71,11 +71,14 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     return true;
 }
 
-void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *depth)
+void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
+                         const double *depth)
 {
     for (size_t i = 0; i < step->count; i++) {
         size_t contact = scene->friction[i].contact;
+        double none[2];
         friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
+        friction_walk(&step->now[i], fmin(d[contact], 0.0), d + scene_tangent(scene, i), none);
     }
 }
 

@@ -44,9 +44,9 @@ struct friction_way {
 bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
                           struct arena *arena);
 
-/* A contact phase begins: the cells of all contacts, open, by their laws and the largest
- * indentations that are expected, [contact]. */
-void friction_step_begin(struct friction_step *step, const struct scene *scene,
+/* A contact phase begins, at the rows' local d: the cells of all contacts, open, by their laws and
+ * the largest indentations that are expected, [contact]. */
+void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
                          const double *depth);
 
 /* Walks friction `i` from the present to the nodes: force[j][node] becomes the force of row t_j, N,

@@ -702,18 +702,20 @@ static void begin_friction(struct modal_run *run)
 {
     const struct scene *scene = &run->march.scene;
     const struct motion *motion = &run->march.outcome->motion;
-    double fastest = 0.0;
-    for (size_t c = 0; c < scene->contacts; c++)
+    double fastest = 0.0, at[SCENE_MOST_ROWS];
+    for (size_t c = 0; c < scene->contacts; c++) {
         fastest = larger(fastest, fabs(run->now[c].rate));
+        at[c] = run->now[c].indentation;
+    }
     for (size_t r = scene->contacts; r < scene_rows(scene); r++) {
-        double d, rate;
-        motion_approach(motion, scene, r, &d, &rate);
-        run->now[r] = (struct contact_start){d, rate, 0.0, 0.0};
+        double rate;
+        motion_approach(motion, scene, r, &at[r], &rate);
+        run->now[r] = (struct contact_start){at[r], rate, 0.0, 0.0};
         memset(run->step.force[r], 0, sizeof run->step.force[r]);
     }
     for (size_t c = 0; c < scene->contacts; c++)
         run->depth[c] = larger(impact_scale_of(scene, c, fastest).indentation, pressed(scene, c));
-    friction_step_begin(&run->step.friction, scene, run->depth);
+    friction_step_begin(&run->step.friction, scene, at, run->depth);
 }
 
 /* The touch that ended the flight, and starting values of the contacts that are still open. */

@@ -94,6 +94,35 @@ static void without_slip(void **state)
     toy_free(&toy);
 }
 
+/* What the surfaces slid before they touch is no slip of the contact: neither a displacement that
+ * is stated nor that of a flight. */
+static void slid_before_the_touch(void **state)
+{
+    (void)state;
+    double impulse[3], lost[3];
+    for (int way = 0; way < 3; way++) {
+        struct toy toy;
+        struct scene_friction friction = {.coefficient = 0.3, .ratio = {KAPPA, 0.0, KAPPA}};
+        toy_init(&toy, 1);
+        toy.scene.frictions = 1;
+        toy.scene.friction = &friction;
+        toy.w[4] = toy.w[8] = 3.5;
+        toy.gap_rate[0] = -1.0;
+        toy.gap_rate[1] = 0.2;
+        toy.gap_rate[2] = 0.1;
+        toy.gap[0] = way == 2 ? 5.0 : 0.0;
+        toy.gap[1] = way == 1 ? 2.0 : 0.0;
+        struct impact_outcome outcome = toy_run(&toy, 1e-5, 100.0);
+        impulse[way] = outcome.tracks[0].tangential[0];
+        lost[way] = outcome.energy.friction;
+        toy_free(&toy);
+    }
+    for (int way = 1; way < 3; way++) {
+        near_relative(impulse[way], impulse[0], 1e-9);
+        near_relative(lost[way], lost[0], 1e-8);
+    }
+}
+
 /* A sphere falls straight into a right-angled groove of its own material, without spin: two
  * contacts at once, each normal along the other's tangent. Rebound over approach, whatever the
  * speed and the mass. */
@@ -133,9 +162,8 @@ static void in_a_groove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres_at_angles),
-        cmocka_unit_test(in_any_direction),
-        cmocka_unit_test(without_slip),
+        cmocka_unit_test(spheres_at_angles), cmocka_unit_test(in_any_direction),
+        cmocka_unit_test(without_slip),      cmocka_unit_test(slid_before_the_touch),
         cmocka_unit_test(in_a_groove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
