@@ -84,6 +84,17 @@ static double numerical(const struct problem *problem, const struct solution *so
     return fmax(error, steps * scale) + solution->error.states.restitution * scale;
 }
 
+/* How much more a tangential force moves the surfaces than a normal one: 7/2 of a ball. So much
+ * more do errors of modes and steps count along the surface. */
+static double along_over_normal(const struct problem *problem, size_t friction)
+{
+    size_t rows = problem_rows(problem), contact = problem->friction[friction].contact;
+    size_t first = problem->contact_count + 2 * friction;
+    const double *w = problem->row_w;
+    double along = fmax(w[first * (rows + 1)], w[(first + 1) * (rows + 1)]);
+    return fmax(1.0, along / w[contact * (rows + 1)]);
+}
+
 /* Of the tangential impulses: modes and steps by what they do to the normal ones, by the solutions
  * beside and by what cells and bends of the force leave; the models by the coefficient's deviation,
  * by the normal impulse, and by the unknown part of the tangential stiffness, which changes the
@@ -97,7 +108,8 @@ static void report_tangential(const struct problem *problem, const struct soluti
         struct solve_contact_result *contact = &result->contacts[c];
         double limit =
             friction->coefficient * outcome_impulse_scale(problem, &solution->outcome, c);
-        double normal = (result->restitution_time + result->restitution_modes) * limit;
+        double normal = (result->restitution_time + result->restitution_modes) * limit *
+                        along_over_normal(problem, i);
         double cells = FRICTION_LEFT * sqrt(solution->step_accuracy) * limit;
         double models = hypot(solution->error.models.tangential[c],
                               friction->coefficient * contact->impulse_error_model);
