@@ -32,6 +32,7 @@ struct campaign {
     size_t answered, refused;                                  /* scenes */
     size_t wrong;           /* scenes with an answer that is met and wrong */
     size_t broken;          /* answers that break an invariant; each is printed */
+    size_t by_cvode;        /* scenes with friction that CVODE judges */
     size_t compared, apart; /* with CVODE, and more than TALLY_SETTLED tolerances apart */
     double farthest;
     uint64_t farthest_scene;

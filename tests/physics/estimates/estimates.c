@@ -8,8 +8,9 @@
  *   estimates --draw [--seed N]              a bounded draw of every class, judged; the seed is
  *                                            the week's (weekly.h) unless given
  * --effort: work of a scene's reference (impact_settings.max_work). --cvode K: every K-th scene's
- * reference is compared with CVODE's. --list: each answer as a line of CSV.
- * Exit 1: the draw, or an answer that breaks an invariant. Exit 2: usage. */
+ * reference is compared with CVODE's; of class oblique CVODE judges all scenes that it solves
+ * within the effort. --list: each answer as a line of CSV. Exit 1: the draw, or an answer that
+ * breaks an invariant. Exit 2: usage. */
 #include <getopt.h>
 
 #include "physics/estimates/campaign.h"

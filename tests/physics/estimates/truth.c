@@ -11,12 +11,15 @@
 #include "solve/formulation.h"
 #include "solve/report.h"
 
-/* Most modes of a family, and the accuracies of the first solution's steps and of the finest. */
+/* Most modes of a family. */
 static const size_t MOST_MODES = 4800;
-static const double FIRST_ACCURACY = 1e-9;
-static const double FINEST_ACCURACY = 1e-14;
 /* CVODE's relative tolerance is a hundredth. */
 static const double CVODE_ACCURACY = 1e-8;
+
+/* Of two solutions in a row, modes and accuracies: CVODE's steps follow the highest frequency. */
+static const struct growth {
+    double first, modes, accuracy, finest;
+} growth_modal = {1e-9, 2.0, 0.03, 1e-14}, growth_cvode = {1e-7, 1.4, 0.1, 1e-9};
 
 struct truth_room {
     struct prepared_cache *cache;
@@ -171,6 +174,8 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
     truth->spread = first ? INFINITY : truth_distance(truth, impulse);
     truth->impulse_spread = first ? INFINITY : truth_impulse_distance(truth, impulse);
     memcpy(truth->impulse, impulse, sizeof impulse);
+    for (size_t c = 0; c < truth->contacts; c++)
+        memcpy(truth->tangential[c], outcome.tracks[c].tangential, sizeof truth->tangential[c]);
     find_effects(problem, truth);
     truth->modes = level->modes;
     truth->levels++;
@@ -193,7 +198,9 @@ bool truth_find(struct truth_room *room, const struct body_set *set,
                 const struct solve_request *request, const struct truth_settings *settings,
                 struct truth *truth)
 {
-    struct level level = {.modes = settings->modes, .accuracy = FIRST_ACCURACY};
+    const struct growth *growth = settings->cvode ? &growth_cvode : &growth_modal;
+    struct level level = {
+        .modes = settings->modes, .accuracy = growth->first, .cvode = settings->cvode};
     memset(truth, 0, sizeof *truth);
     truth->spread = INFINITY;
     for (;;) {
@@ -204,8 +211,9 @@ bool truth_find(struct truth_room *room, const struct body_set *set,
             print_level(&level, truth);
         if (truth->spread <= settings->goal || level.modes >= MOST_MODES)
             return truth->levels > 1;
-        level.modes = level.modes * 2 < MOST_MODES ? level.modes * 2 : MOST_MODES;
-        level.accuracy = fmax(level.accuracy * 0.03, FINEST_ACCURACY);
+        double modes = fmin((double)level.modes * growth->modes, (double)MOST_MODES);
+        level.modes = (size_t)modes;
+        level.accuracy = fmax(level.accuracy * growth->accuracy, growth->finest);
     }
 }
 

@@ -16,6 +16,7 @@ struct truth_settings {
                                             this reference: the request's states do not count,
                                             and `elapsed` is from the stated instant of that one */
     size_t earlier_count;                /* 0: the request's states do */
+    bool cvode;                          /* all solutions by CVODE, for contacts with friction */
     bool chatty;                         /* print each */
 };
 
@@ -50,7 +51,7 @@ bool truth_find(struct truth_room *room, const struct body_set *set,
                 const struct solve_request *request, const struct truth_settings *settings,
                 struct truth *truth);
 
-/* By an answer whose tolerance is as tight as is affordable, for contacts with friction. */
+/* By an answer whose tolerance is as tight as is affordable. */
 void truth_by_answer(const struct solve_result *result, struct truth *truth);
 
 /* One solution by CVODE with so many modes of each family: nothing of the modal method's
