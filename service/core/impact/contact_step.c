@@ -34,9 +34,10 @@ static inline double larger(double a, double b)
     return b > a || isnan(b) ? b : a;
 }
 
-/* Change of tangential forces, over their limits, after which they are as exact as the accuracy;
- * and the smallest: a cell's mean stiffness over a short way is the quotient of two differences. */
-static const double LAST_SLIDE = 0.1;
+/* What the rounds may leave of tangential forces, over their limits, by the accuracy's root: a
+ * tenth of what the cells leave (friction_step.c); and the smallest: a cell's mean stiffness over a
+ * short way is the quotient of two differences. */
+static const double SLIDE_LEFT = 0.002;
 static const double FINEST_SLIDE = 1e-8;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
@@ -45,7 +46,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     size_t n = scene_rows(scene);
     *step = (struct contact_step){.arena = arena,
                                   .last_change = node_solver_last_change(accuracy),
-                                  .last_slide = larger(LAST_SLIDE * accuracy, FINEST_SLIDE)};
+                                  .last_slide = larger(SLIDE_LEFT * sqrt(accuracy), FINEST_SLIDE)};
     /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
@@ -346,28 +347,30 @@ static inline enum contact_step_end solve_normals(struct contact_step *step,
 
 /* ---- Friction ---- */
 
-/* The tangential forces and the normal ones in turn: some four rounds in an ordinary step, as the
- * tangents' own equations are solved by Newton's method with the slopes of the cells that stick. */
+/* The tangential forces and the normal ones in turn: two rounds in an ordinary step, as the
+ * tangents' own equations are solved by Newton's method with the slopes of the cells. */
 enum { MOST_ROUNDS = 30 };
 
 /* A contact of a group whose limit is below this share of the group's need not be as exact: one far
  * from the impact may bear as good as nothing. */
 static const double SHARE_OF_LIMITS = 0.01;
 
-/* Changes of the forces by which a round differs from the one before, and by the displacements'
- * last change at their slopes; and their limits. */
+/* Of the forces along the tangents at a round's end: what it moves them by, what the normal forces'
+ * last change does to their limits, and the limits. */
 struct round_change {
-    double change[PERCUSS_MAX_CONTACTS], limit[PERCUSS_MAX_CONTACTS]; /* [friction], N */
+    double moved[PERCUSS_MAX_CONTACTS], pressed[PERCUSS_MAX_CONTACTS]; /* [friction], N */
+    double limit[PERCUSS_MAX_CONTACTS];
 };
 
-static double largest_change(const struct round_change *of, size_t count)
+/* The largest of `change` over the limits. */
+static double largest_change(const struct round_change *of, const double *change, size_t count)
 {
     double group = 0.0, largest = 0.0;
     for (size_t i = 0; i < count; i++)
         group = larger(group, SHARE_OF_LIMITS * of->limit[i]);
     for (size_t i = 0; i < count; i++)
-        if (!(of->change[i] == 0.0))
-            largest = larger(largest, of->change[i] / larger(of->limit[i], group));
+        if (!(change[i] == 0.0))
+            largest = larger(largest, change[i] / larger(of->limit[i], group));
     return largest;
 }
 
@@ -378,13 +381,14 @@ static void find_change(const struct contact_step *step, const struct scene *sce
     const struct scene_friction *friction = &scene->friction[i];
     const double *normal = step->force[friction->contact];
     size_t row = scene_tangent(scene, i);
-    of->limit[i] = of->change[i] = 0.0;
+    of->limit[i] = of->moved[i] = of->pressed[i] = 0.0;
     for (int j = 0; j < NODES; j++) {
         double moved = fabs(step->stiffness[row][j] * step->change[row][j]) +
                        fabs(step->stiffness[row + 1][j] * step->change[row + 1][j]);
         double pressed = fabs(normal[j] - step->before[friction->contact][j]);
         of->limit[i] = larger(of->limit[i], friction->coefficient * normal[j]);
-        of->change[i] = larger(of->change[i], larger(moved, friction->coefficient * pressed));
+        of->moved[i] = larger(of->moved[i], moved);
+        of->pressed[i] = larger(of->pressed[i], friction->coefficient * pressed);
     }
 }
 
@@ -422,13 +426,23 @@ static bool improve_tangents(struct contact_step *step, const struct node_proble
 }
 
 /* The forces at the nodes of friction `i` by the present indentations and displacements. */
-static void walk_nodes(struct contact_step *step, const struct scene *scene, size_t i,
+static void walk_nodes(struct contact_step *step, const struct scene *scene, size_t i, int parts,
                        const struct contact_start *start)
 {
     size_t row = scene_tangent(scene, i);
     const struct friction_way way = way_of(step, scene, i, start);
-    friction_step_nodes(&step->friction, i, &way, step->force[scene->friction[i].contact],
+    friction_step_nodes(&step->friction, i, &way, parts, step->force[scene->friction[i].contact],
                         step->force + row, step->stiffness + row);
+}
+
+/* Shortens a tangential force to its limit. */
+static void keep_limit(double *x, double *y, double limit)
+{
+    double size = hypot(*x, *y);
+    if (size > limit) {
+        *x *= limit / size;
+        *y *= limit / size;
+    }
 }
 
 /* Forces of friction `i` after the last, tiny change of its displacements, within their limit. */
@@ -440,84 +454,96 @@ static void follow_tangents(struct contact_step *step, const struct scene *scene
         double *x = &step->force[row][j], *y = &step->force[row + 1][j];
         *x -= step->stiffness[row][j] * step->change[row][j];
         *y -= step->stiffness[row + 1][j] * step->change[row + 1][j];
-        double limit = friction->coefficient * step->force[friction->contact][j];
-        double size = hypot(*x, *y);
-        if (size > limit) {
-            *x *= limit / size;
-            *y *= limit / size;
-        }
+        keep_limit(x, y, friction->coefficient * step->force[friction->contact][j]);
     }
 }
 
-/* Rounds until the forces would change by less than `last` of their limits; they then follow that
- * change by their slopes. */
+/* Rounds until the next one would move the forces by less than `last` of their limits, as the last
+ * two tell; they then follow the last change by their slopes. The first round walks through the
+ * nodes alone. */
 static enum contact_step_end solve_with_friction(struct contact_step *step,
                                                  const struct node_problem *problem,
                                                  const struct contact_start *start, double last)
 {
     const struct scene *scene = problem->scene;
-    size_t size = scene_rows(scene) * sizeof *step->force;
+    size_t count = scene->frictions, size = scene_rows(scene) * sizeof *step->force;
+    double before = 0.0;
     for (int round = 0; round < MOST_ROUNDS; round++) {
         struct round_change change;
         memcpy(step->before, step->force, size);
         enum contact_step_end end = solve_normals(step, problem, start);
         if (end != STEP_SOLVED)
             return end;
-        for (size_t i = 0; i < scene->frictions; i++)
-            walk_nodes(step, scene, i, start);
+        for (size_t i = 0; i < count; i++)
+            walk_nodes(step, scene, i, round == 0 ? 1 : FRICTION_PARTS, start);
         if (!improve_tangents(step, problem))
             return STEP_UNSOLVED;
         step->iterations++;
-        for (size_t i = 0; i < scene->frictions; i++)
+        for (size_t i = 0; i < count; i++)
             find_change(step, scene, i, &change);
-        if (round > 0 && largest_change(&change, scene->frictions) <= last) {
-            for (size_t i = 0; i < scene->frictions; i++)
+        double moved = largest_change(&change, change.moved, count);
+        double left = moved < before ? moved * (moved / before) : moved;
+        if (round > 0 && left <= last && largest_change(&change, change.pressed, count) <= last) {
+            for (size_t i = 0; i < count; i++)
                 follow_tangents(step, scene, i);
             return STEP_SOLVED;
         }
+        before = moved;
     }
     return STEP_UNSOLVED;
 }
 
-/* Approaches of the rows at the end less the residual flexibility's part by other rows' forces: of
- * the contacts by the tangents', of tangent `row` by all. */
-static double less_residual(const struct contact_step *step, const struct scene *scene, size_t row)
+/* The approach of a row at the end less the residual flexibility's part by other rows' forces: of a
+ * contact by the tangents', of a tangent by all. */
+static double less_residual(const struct contact_step *step, const struct scene *scene, size_t row,
+                            double approach)
 {
     size_t rows = scene_rows(scene);
-    double approach = step->approach[row];
     for (size_t b = row < scene->contacts ? scene->contacts : 0; b < rows; b++)
         if (b != row)
             approach -= scene->residual[row * rows + b] * step->end_force[b];
     return approach;
 }
 
-/* The tangents at the end for the normals there. */
-static double end_tangents(struct contact_step *step, const struct scene *scene,
+/* Newton's method for the displacements of friction `i` at the end, for the normal force there; the
+ * forces follow. What it moves them by, over their limit. */
+static double end_tangents(struct contact_step *step, const struct scene *scene, size_t i,
                            const struct contact_start *start)
 {
-    size_t rows = scene_rows(scene);
-    struct round_change changed;
-    for (size_t i = 0; i < scene->frictions; i++) {
-        size_t row = scene_tangent(scene, i);
-        changed.limit[i] =
-            scene->friction[i].coefficient * step->end_force[scene->friction[i].contact];
-        changed.change[i] = 0.0;
-        double before[2] = {step->end_force[row], step->end_force[row + 1]};
-        double stiffness[2];
-        const struct friction_way way = way_of(step, scene, i, start);
-        friction_step_end(&step->friction, i, &way, step->end_force[scene->friction[i].contact],
-                          step->end_force + row, stiffness);
-        for (int j = 0; j < 2; j++) {
-            double own = scene->residual[(row + (size_t)j) * (rows + 1)];
-            double *d = &step->end_indentation[row + (size_t)j];
-            double excess = *d + own * step->end_force[row + (size_t)j] -
-                            less_residual(step, scene, row + (size_t)j);
-            *d -= excess / (1.0 + own * stiffness[j]);
-            changed.change[i] =
-                larger(changed.change[i], fabs(step->end_force[row + (size_t)j] - before[j]));
-        }
+    const struct scene_friction *friction = &scene->friction[i];
+    size_t rows = scene_rows(scene), row = scene_tangent(scene, i);
+    double limit = friction->coefficient * step->end_force[friction->contact];
+    double moved = 0.0, stiffness[2];
+    const struct friction_way way = way_of(step, scene, i, start);
+    friction_step_end(&step->friction, i, &way, step->end_force[friction->contact],
+                      step->end_force + row, stiffness);
+    double excess[2];
+    for (size_t j = 0; j < 2; j++)
+        excess[j] = step->end_indentation[row + j] -
+                    less_residual(step, scene, row + j, step->approach[row + j]) +
+                    scene->residual[(row + j) * (rows + 1)] * step->end_force[row + j];
+    for (size_t j = 0; j < 2; j++) {
+        double own = scene->residual[(row + j) * (rows + 1)];
+        double change = excess[j] / (1.0 + own * stiffness[j]);
+        step->end_indentation[row + j] -= change;
+        step->end_force[row + j] -= stiffness[j] * change;
+        moved += fabs(stiffness[j] * change);
     }
-    return largest_change(&changed, scene->frictions);
+    keep_limit(&step->end_force[row], &step->end_force[row + 1], limit);
+    return moved > 0.0 ? moved / limit : 0.0;
+}
+
+/* Whether the tangents' forces at the end leave the contacts' approaches as they are solved, which
+ * are `approach` without them. */
+static bool normals_agree(const struct contact_step *step, const struct scene *scene,
+                          const double *approach, double last)
+{
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double change = less_residual(step, scene, c, approach[c]) - step->approach[c];
+        if (fabs(change) > last * fabs(step->end_indentation[c]))
+            return false;
+    }
+    return true;
 }
 
 /* Solves the step's end, as exactly as the nodes. */
@@ -530,13 +556,14 @@ static bool end_with_friction(struct contact_step *step, const struct scene *sce
     for (size_t row = n; row < scene_rows(scene); row++)
         step->end_force[row] = collocation_last(step->force[row]);
     for (int round = 0; round < MOST_ROUNDS; round++) {
+        double moved = 0.0;
         for (size_t c = 0; c < n; c++)
-            step->approach[c] = approach[c];
-        for (size_t c = 0; c < n; c++)
-            step->approach[c] = less_residual(step, scene, c);
+            step->approach[c] = less_residual(step, scene, c, approach[c]);
         if (!find_end(step, scene))
             return false;
-        if (!(end_tangents(step, scene, start) > last) && round > 0)
+        for (size_t i = 0; i < scene->frictions; i++)
+            moved = larger(moved, end_tangents(step, scene, i, start));
+        if (moved <= last && normals_agree(step, scene, approach, last))
             return true;
     }
     return false;

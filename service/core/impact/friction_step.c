@@ -104,7 +104,7 @@ static double solved_share(const struct friction *friction, double normal)
 }
 
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
-                         const double normal[NODES], double (*force)[NODES],
+                         int parts, const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES])
 {
     struct friction *along = &step->along[i];
@@ -112,7 +112,7 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
     double sum[2];
     friction_copy(along, &step->now[i]);
     for (int node = 0; node < NODES; node++) {
-        for (int p = 0; p < FRICTION_PARTS; p++) {
+        for (int p = FRICTION_PARTS - parts; p < FRICTION_PARTS; p++) {
             at_point(way, step->points->to_node[node][p], false, value);
             friction_walk(along, value[0], value + 1, sum);
         }

@@ -49,11 +49,11 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
 void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
                          const double *depth);
 
-/* Walks friction `i` from the present to the nodes: force[j][node] becomes the force of row t_j, N,
- * stiffness[j][node] its slope by that row's d, N/m. `normal`: the contact's forces there, as the
- * iteration left them. */
+/* Walks friction `i` from the present to the nodes, from one to the next in `parts`, 1 or
+ * FRICTION_PARTS: force[j][node] becomes the force of row t_j, N, stiffness[j][node] its slope by
+ * that row's d, N/m. `normal`: the contact's forces there, as the iteration left them. */
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
-                         const double normal[NODES], double (*force)[NODES],
+                         int parts, const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES]);
 
 /* The same from the last node to the end. */

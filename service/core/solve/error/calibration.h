@@ -66,9 +66,9 @@ static const double FRICTION_STEPS = 3.0;
 /* Of the energy, what the cells' books of it miss, by the accuracy's root: it is none of the normal
  * force's. */
 static const double FRICTION_BOOKS = 0.04;
-/* Accuracy of the steps of solutions with other coefficients, which change a tangential impulse by
- * some 20 %: they leave 1e-3 of it. */
-static const double PERTURBED_FRICTION = 1e-4;
+/* Root of the accuracy of the steps of solutions with other coefficients, over the coefficients'
+ * relative deviation: they leave a sixtieth of its effect (FRICTION_LEFT). */
+static const double PERTURBED_FRICTION = 1.0 / 6.0;
 /* A tolerance that demands an energy audit of a tenth of it; others close to CLOSURE tolerances. */
 static const double TOLERANCE_AUDITED = 1e-8;
 static const double CLOSURE = 10.0;

@@ -434,6 +434,20 @@ static bool coefficients_are_exact(const struct problem *problem)
     return true;
 }
 
+/* Of the steps of solutions with other coefficients: rough ones, where a deviation's effect is
+ * large enough. */
+static double friction_accuracy(const struct model_margin *margin)
+{
+    const struct problem *problem = margin->problem;
+    double root = sqrt(PERTURBED_STEPS);
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        const struct contact_friction *of = &problem->friction[i];
+        if (of->deviation > 0.0)
+            root = fmin(root, PERTURBED_FRICTION * of->deviation / of->coefficient);
+    }
+    return fmax(root * root, margin->solution->step_accuracy);
+}
+
 /* Solves again with all coefficients a deviation larger, and of sequences smaller: the changes of e
  * and of the tangential impulses; INFINITY where one was cut off. */
 static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
@@ -456,9 +470,9 @@ static enum percuss_status by_friction(const struct model_margin *margin, struct
             friction[i].coefficient =
                 fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
         }
-        struct attempt attempt = {.accuracy = fmax(solution->step_accuracy, PERTURBED_FRICTION),
+        struct attempt attempt = {.accuracy = friction_accuracy(margin),
                                   .assembly = solution->assembly,
-                                  .profile = solution->step_profile};
+                                  .profile = STEP_PROFILE_ROUGH};
         enum percuss_status status = attempt_run(&context, &attempt, &scene);
         if (status)
             return status;
