@@ -37,7 +37,7 @@ static inline double larger(double a, double b)
 /* What the rounds may leave of tangential forces, over their limits, by the accuracy's root: a
  * tenth of what the cells leave (friction_step.c); and the smallest: a cell's mean stiffness over a
  * short way is the quotient of two differences. */
-static const double SLIDE_LEFT = 0.002;
+static const double SLIDE_LEFT = 0.003;
 static const double FINEST_SLIDE = 1e-8;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,

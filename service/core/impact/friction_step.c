@@ -36,7 +36,7 @@ static void set_polynomials(struct friction_points *points)
 
 /* The error of a sphere's tangential speed after the impact, over the coefficient's speed, is
  * 0.3/cells^2; the steps' own error goes with their accuracy, too. */
-static const double CELLS = 4.0;
+static const double CELLS = 3.0;
 enum { FEWEST_CELLS = 16, MOST_CELLS = 256 };
 
 static size_t cells_for(double accuracy)
