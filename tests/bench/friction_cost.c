@@ -35,20 +35,6 @@ static double cost(struct solve_workspace *workspace, const struct solve_context
     return best;
 }
 
-/* At 30 degrees from the normal; along the first of the world's axes across the normal, or between
- * both. */
-static struct solve_request thrown(const struct bench_scene *scene, double mu, bool between)
-{
-    struct solve_request request = bench_request(scene, 1e-3);
-    int along = scene->normal[0] * scene->normal[0] < 0.5 ? 0 : 1;
-    int across = scene->normal[2] * scene->normal[2] < 0.5 ? 2 : 1;
-    request.bodies[0].velocity[along] += (between ? 0.5 : 0.577) * scene->speed;
-    request.bodies[0].velocity[across] += (between ? 0.288 : 0.0) * scene->speed;
-    request.contacts[0].tangent[along] = 1.0;
-    request.contacts[0].friction = mu;
-    return request;
-}
-
 int main(int argc, char **argv)
 {
     static const char *const scenes[] = {"spheres", "beam"};
@@ -66,7 +52,7 @@ int main(int argc, char **argv)
             return EXIT_FAILURE;
         double mu = coefficients[i % 2];
         bool between = i / 2 % 2;
-        struct solve_request request = thrown(scene, mu, between), bare = request;
+        struct solve_request request = bench_thrown(scene, 1e-3, mu, between), bare = request;
         bare.contacts[0].friction = 0.0;
         double without = cost(workspace, &context, &bare, times);
         double with = cost(workspace, &context, &request, times);

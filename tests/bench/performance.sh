@@ -165,6 +165,8 @@ for scene in rod beam; do
         scenes="$scenes $scene-$tolerance"
     done
 done
+profile thrown-1e-3 counted_solve "$build/tests/bench/solve_once" beam 1e-3 thrown
+scenes="$scenes thrown-1e-3"
 first=
 for scene in rod beam; do
     profile "first-$scene" counted_solve "$build/tests/bench/solve_once" "$scene" 1e-3 first

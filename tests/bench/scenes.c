@@ -190,6 +190,19 @@ struct solve_request bench_request(const struct bench_scene *scene, double toler
     return request;
 }
 
+struct solve_request bench_thrown(const struct bench_scene *scene, double tolerance, double mu,
+                                  bool between)
+{
+    struct solve_request request = bench_request(scene, tolerance);
+    int along = scene->normal[0] * scene->normal[0] < 0.5 ? 0 : 1;
+    int across = scene->normal[2] * scene->normal[2] < 0.5 ? 2 : 1;
+    request.bodies[0].velocity[along] += (between ? 0.5 : 0.577) * scene->speed;
+    request.bodies[0].velocity[across] += (between ? 0.288 : 0.0) * scene->speed;
+    request.contacts[0].tangent[along] = 1.0;
+    request.contacts[0].friction = mu;
+    return request;
+}
+
 static bool build(struct fixed_scene *fixed, bool residual)
 {
     struct fault fault = {0};

@@ -39,6 +39,10 @@ struct bench_catalogue {
 bool bench_catalogue_make(struct bench_catalogue *catalogue, unsigned modes);
 
 struct solve_request bench_request(const struct bench_scene *scene, double tolerance);
+/* The same thrown at 30 degrees from the normal, with friction: along the first tangent, the first
+ * of the world's axes across the normal, or between both tangents. */
+struct solve_request bench_thrown(const struct bench_scene *scene, double tolerance, double mu,
+                                  bool between);
 
 /* The problem with a fixed number of modes. */
 struct fixed_scene {

@@ -142,10 +142,10 @@ static enum percuss_status solve_sites(struct solve_workspace *workspace,
     return status;
 }
 
-/* solve_once rod|beam TOLERANCE [first|groups|singles|samples|sites|sites-again]: the scene, warm;
- * or when nothing is known of its bodies; or thirty groups of three strikers on its body; or each
- * of their contacts by itself; or a hundred samples of an ensemble; or a hundred sites along it
- * that are new, or asked of again. */
+/* solve_once rod|beam TOLERANCE [first|thrown|groups|singles|samples|sites|sites-again]: the scene,
+ * warm; or when nothing is known of its bodies; or with friction, between the tangents; or thirty
+ * groups of three strikers on its body; or each of their contacts by itself; or a hundred samples
+ * of an ensemble; or a hundred sites along it that are new, or asked of again. */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
@@ -153,23 +153,25 @@ int main(int argc, char **argv)
     const struct bench_scene *scene = argc >= 3 ? bench_scene_find(argv[1]) : NULL;
     double tolerance = argc >= 3 ? strtod(argv[2], NULL) : 0.0;
     bool first = argc == 4 && strcmp(argv[3], "first") == 0;
+    bool thrown = argc == 4 && strcmp(argv[3], "thrown") == 0;
     bool groups = argc == 4 && strcmp(argv[3], "groups") == 0;
     bool singles = argc == 4 && strcmp(argv[3], "singles") == 0;
     bool samples = argc == 4 && strcmp(argv[3], "samples") == 0;
     bool again = argc == 4 && strcmp(argv[3], "sites-again") == 0;
     bool sites = again || (argc == 4 && strcmp(argv[3], "sites") == 0);
-    bool known = first || groups || singles || samples || sites;
+    bool known = first || thrown || groups || singles || samples || sites;
     if (!scene || !(tolerance > 0.0) || (argc != 3 && !known)) {
         fprintf(stderr, "usage: solve_once SCENE TOLERANCE "
-                        "[first|groups|singles|samples|sites|sites-again]\n");
+                        "[first|thrown|groups|singles|samples|sites|sites-again]\n");
         return 2;
     }
     const struct solve_context means = {.catalogue = &catalogue.set};
     struct solve_workspace *workspace = solve_workspace_create();
-    struct solve_request request = bench_request(scene, tolerance);
+    struct solve_request request =
+        thrown ? bench_thrown(scene, tolerance, 0.3, true) : bench_request(scene, tolerance);
     enum percuss_status status = PERCUSS_INTERNAL;
     uint64_t seed = 3;
-    if (workspace && bench_catalogue_make(&catalogue, 0) && argc == 3)
+    if (workspace && bench_catalogue_make(&catalogue, 0) && (argc == 3 || thrown))
         status = solve_warm(workspace, &means, &request, &result);
     else if (first && catalogue.set.count)
         status = counted_solve(workspace, &means, &request, &result);

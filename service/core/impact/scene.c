@@ -16,6 +16,28 @@ enum percuss_status scene_prepare(const struct scene *scene, int level, struct p
     return PERCUSS_OK;
 }
 
+bool scene_normals(const struct scene *scene, struct arena *arena, struct scene *normals)
+{
+    size_t n = scene->contacts, rows = scene_rows(scene);
+    *normals = *scene;
+    normals->frictions = 0;
+    normals->friction = NULL;
+    if (rows == n)
+        return true;
+    double *w = arena_take(arena, n * n, sizeof *w);
+    double *residual = arena_take(arena, n * n, sizeof *residual);
+    if (!w || !residual)
+        return false;
+    for (size_t a = 0; a < n; a++)
+        for (size_t b = 0; b < n; b++) {
+            w[a * n + b] = scene->w[a * rows + b];
+            residual[a * n + b] = scene->residual[a * rows + b];
+        }
+    normals->w = w;
+    normals->residual = residual;
+    return true;
+}
+
 double scene_highest_frequency(const struct scene *scene)
 {
     double highest = 0.0;

@@ -17,8 +17,10 @@
 #ifndef PERCUSS_IMPACT_SCENE_H
 #define PERCUSS_IMPACT_SCENE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
+#include "base/arena.h"
 #include "contact/law.h"
 #include "impact/step_table.h"
 
@@ -72,6 +74,10 @@ static inline size_t scene_friction_of(const struct scene *scene, size_t contact
         i++;
     return i;
 }
+
+/* The same scene without its tangents, as if it had no friction. Its matrices come from the arena,
+ * all else from the scene. False: out of memory. */
+bool scene_normals(const struct scene *scene, struct arena *arena, struct scene *normals);
 
 /* Makes sure that the groups' tables of a level hold the oscillators that take part. OK, INTERNAL
  * without memory, or TIMEOUT where the pace stopped it. */

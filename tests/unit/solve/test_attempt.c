@@ -90,6 +90,42 @@ static void a_pressed_contact_takes_care(void **state)
     search_free(search);
 }
 
+/* A contact's normal forces are recorded where friction hardly acts on them: on the middle of the
+ * beam and along it, not at the end of a bar that falls askew. First order follows a scene without
+ * tangents. */
+static void friction_that_is_weak(void **state)
+{
+    (void)state;
+    struct search *search = search_create();
+    struct body bar = make_bar(&beam_kind, STEEL, 0.00635, 0.2);
+    double lean = M_PI / 4.0;
+    struct spot cap = {"bar",
+                       {-0.1 + 0.00635 * (1.0 - cos(lean)), 0.0, -0.00635 * sin(lean)},
+                       {-cos(lean), 0.0, -sin(lean)},
+                       0.0};
+    bar.tip_radius = 0.00635;
+    lab_add(search->lab, "bar", bar);
+    lab_add(search->lab, "wall", rigid_wall());
+    for (int i = 0; i < 3; i++) {
+        struct solve_request request = i < 2 ? strike(sphere_spot("ball", 0.015),
+                                                      side_spot("beam", -0.19 * i, 0.010, 0.0), 0.3)
+                                             : strike(cap, wall_spot("wall"), 1.0);
+        struct attempt attempt;
+        struct scene followed;
+        request.contacts[0].friction = 0.3;
+        attempt_with(search, &request, STEP_PROFILE_SEQUENCE, &attempt);
+        assert_true(!attempt.log == (i == 2));
+        if (!attempt.log)
+            continue;
+        assert_int_equal(attempt.log->rows, 1);
+        assert_true(attempt_followed_scene(search->context.problem, &attempt.assembly->scene,
+                                           &attempt.outcome, &followed));
+        assert_int_equal(scene_rows(&followed), 1);
+        assert_true(followed.w[0] == attempt.assembly->scene.w[0]);
+    }
+    search_free(search);
+}
+
 /* A rough solution of the sequence has the same sub-impacts by half the steps. */
 static void a_rough_solution_is_cheap(void **state)
 {
@@ -231,6 +267,7 @@ int main(void)
         cmocka_unit_test(a_single_blow_that_is_none_is_begun_again),
         cmocka_unit_test(a_single_blow_takes_fewer_steps),
         cmocka_unit_test(a_pressed_contact_takes_care),
+        cmocka_unit_test(friction_that_is_weak),
         cmocka_unit_test(a_rough_solution_is_cheap),
         cmocka_unit_test(a_rod),
         cmocka_unit_test(a_beam),

@@ -107,10 +107,43 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
     return run_once(context, attempt, scene, NULL);
 }
 
+/* How much forces of row b move row a during a contact: rigid bodies, modes, which follow the
+ * slower the lower they are, and residual flexibility; each by its magnitude, 1/kg. */
+static double moves(const struct scene *scene, size_t a, size_t b, double duration)
+{
+    size_t at = a * scene_rows(scene) + b;
+    double sum = fabs(scene->w[at]) + fabs(scene->residual[at]) / (duration * duration);
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *first = group->participation[a], *second = group->participation[b];
+        for (size_t k = 0; first && second && k < group->count; k++) {
+            double turn = group->set->omega[k] * duration;
+            sum += fabs(first[k] * second[k]) / (1.0 + turn * turn);
+        }
+    }
+    return sum;
+}
+
+/* Whether tangential forces hardly move the contacts along their normals: then first order along
+ * the normal forces alone tells what changes do to these. */
+static bool friction_is_weak(const struct scene *scene)
+{
+    for (size_t c = 0; scene->frictions && c < scene->contacts; c++) {
+        double duration = impact_scale_of(scene, c, fabs(scene->gap_rate[c])).duration;
+        double by_tangents = 0.0;
+        for (size_t r = scene->contacts; r < scene_rows(scene); r++)
+            by_tangents += scene->friction[(r - scene->contacts) / 2].coefficient *
+                           moves(scene, c, r, duration);
+        if (!(by_tangents <= WEAK_FRICTION * moves(scene, c, c, duration)))
+            return false;
+    }
+    return true;
+}
+
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene)
 {
-    if (scene->contacts > COUPLING_FEW || scene->frictions)
+    if (scene->contacts > COUPLING_FEW || !friction_is_weak(scene))
         return attempt_run(context, attempt, scene);
     /* a single impact needs none */
     choose_profile(attempt, scene);
@@ -123,7 +156,7 @@ enum percuss_status attempt_run_logged(struct attempt_context *context, struct a
     struct force_log *log = arena_take(context->arena, 1, sizeof *log);
     if (!log)
         return PERCUSS_INTERNAL;
-    *log = force_log_make(context->arena, scene_rows(scene));
+    *log = force_log_make(context->arena, scene->contacts);
     log->most = MOST_LOGGED / scene->contacts;
     return run_once(context, attempt, scene, log);
 }
@@ -275,4 +308,12 @@ bool attempt_truncate(const struct problem *problem, const struct scene *scene,
         truncated->groups++;
     }
     return true;
+}
+
+bool attempt_followed_scene(const struct problem *problem, const struct scene *scene,
+                            const struct impact_outcome *answer, struct scene *followed)
+{
+    struct scene truncated;
+    return attempt_truncate(problem, scene, answer, TRUNCATED_FIRST_ORDER, &truncated) &&
+           scene_normals(&truncated, problem->arena, followed);
 }

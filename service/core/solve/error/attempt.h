@@ -49,8 +49,8 @@ enum percuss_status attempt_assemble(struct attempt_context *context, struct att
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 
-/* The same, and records the forces where first order can tell the effect of small changes: in
- * sequences of the modal method. */
+/* The same, and records the normal forces where first order along them can tell the effect of small
+ * changes: in sequences of the modal method, where friction hardly acts on them. */
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene);
 
@@ -93,5 +93,10 @@ bool attempt_can_shorten(double accuracy);
  * arena, sets of modes from the scene. False: out of memory. */
 bool attempt_truncate(const struct problem *problem, const struct scene *scene,
                       const struct impact_outcome *answer, double allowed, struct scene *truncated);
+
+/* The scene that first order follows along a logged answer: without the modes that it does not
+ * need, and without tangents. False: out of memory. */
+bool attempt_followed_scene(const struct problem *problem, const struct scene *scene,
+                            const struct impact_outcome *answer, struct scene *followed);
 
 #endif

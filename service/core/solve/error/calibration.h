@@ -63,6 +63,9 @@ static const double FRICTION_LEFT = 0.1;
 /* Root of the accuracy of the first steps of a contact with friction, in tolerances: the tangential
  * speed is right to the tolerance of the coefficient's (tests/physics/test_oblique.c). */
 static const double FRICTION_STEPS = 3.0;
+/* Share of what a contact's force moves it by that tangential forces at their limits may: the
+ * errors of normal forces, found without them, are then wrong by as much. */
+static const double WEAK_FRICTION = 0.1;
 /* Of the energy, what the cells' books of it miss, by the accuracy's root: it is none of the normal
  * force's. */
 static const double FRICTION_BOOKS = 0.04;

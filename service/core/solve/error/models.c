@@ -310,8 +310,7 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
         source[0][c] = source_of(margin, c, 1.0);
         source[1][c] = source_of(margin, c, c % 2 ? -1.0 : 1.0);
     }
-    if (!attempt_truncate(problem, solution->scene, &solution->outcome, TRUNCATED_FIRST_ORDER,
-                          &scene))
+    if (!attempt_followed_scene(problem, solution->scene, &solution->outcome, &scene))
         return PERCUSS_INTERNAL;
     const struct sensitivity_group_task task = {&scene, solution->log, 2, {source[0], source[1]}};
     enum percuss_status status = sensitivity_group_follow(&task, problem->arena, pace, tangent);
@@ -336,8 +335,7 @@ static struct sensitivity_path *find_path(const struct model_margin *margin)
     struct scene scene;
     if (solution->path)
         return solution->path;
-    if (!attempt_truncate(margin->problem, solution->scene, &solution->outcome,
-                          TRUNCATED_FIRST_ORDER, &scene))
+    if (!attempt_followed_scene(margin->problem, solution->scene, &solution->outcome, &scene))
         return NULL;
     return sensitivity_path_create(&scene, solution->log, margin->problem->arena);
 }
@@ -448,8 +446,54 @@ static double friction_accuracy(const struct model_margin *margin)
     return fmax(root * root, margin->solution->step_accuracy);
 }
 
-/* Solves again with all coefficients a deviation larger, and of sequences smaller: the changes of e
- * and of the tangential impulses; INFINITY where one was cut off. */
+/* Solves roughly with all coefficients so many deviations larger. */
+static enum percuss_status solve_coefficients(const struct model_margin *margin,
+                                              struct attempt_context *context, double sign,
+                                              struct attempt *attempt)
+{
+    const struct problem *problem = margin->problem;
+    struct scene scene = *margin->solution->scene;
+    struct scene_friction *friction = arena_take(problem->arena, scene.frictions, sizeof *friction);
+    if (!friction)
+        return PERCUSS_INTERNAL;
+    for (size_t i = 0; i < scene.frictions; i++) {
+        const struct contact_friction *of = &problem->friction[i];
+        friction[i] = scene.friction[i];
+        friction[i].coefficient =
+            fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
+    }
+    scene.friction = friction;
+    *attempt = (struct attempt){.accuracy = friction_accuracy(margin),
+                                .assembly = margin->solution->assembly,
+                                .profile = STEP_PROFILE_ROUGH};
+    return attempt_run(context, attempt, &scene);
+}
+
+/* Widens the tangential impulses' errors and those that a coefficient's deviation makes of the
+ * normal ones, N s, to the distance of two solutions. */
+static void widen_by_friction(const struct problem *problem, const struct impact_outcome *base,
+                              const struct impact_outcome *other, double *tangential,
+                              double *impulse)
+{
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        size_t c = problem->friction[i].contact;
+        tangential[c] = fmax(tangential[c], outcome_tangential_change(base, other, c));
+    }
+    for (size_t c = 0; c < problem->contact_count; c++)
+        impulse[c] = fmax(impulse[c], fabs(base->tracks[c].impulse - other->tracks[c].impulse));
+}
+
+static void unknown_by_friction(const struct problem *problem, struct model_error *error)
+{
+    error->friction = INFINITY;
+    for (size_t i = 0; i < problem->friction_count; i++)
+        error->tangential[problem->friction[i].contact] = INFINITY;
+}
+
+/* The changes of e and of the tangential impulses by coefficients that are a deviation larger;
+ * INFINITY where a solution was cut off. A sequence amplifies what rough steps leave: there another
+ * solution as rough stands for the answer. It amplifies the deviation, too, unless friction is weak
+ * (the answer's forces were recorded): then coefficients are smaller as well. */
 static enum percuss_status by_friction(const struct model_margin *margin, struct pace *pace,
                                        struct model_error *error)
 {
@@ -457,43 +501,30 @@ static enum percuss_status by_friction(const struct model_margin *margin, struct
     const struct solution *solution = margin->solution;
     struct attempt_context context = {
         .problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work};
-    size_t n = problem->friction_count;
-    struct scene_friction *friction = arena_take(problem->arena, n, sizeof *friction);
-    struct scene scene = *solution->scene;
-    if (!friction)
+    double *impulse = arena_take(problem->arena, problem->contact_count, sizeof *impulse);
+    struct attempt base = {.outcome = solution->outcome};
+    static const double deviations[] = {0.0, 1.0, -1.0};
+    size_t first = is_sequence(margin) ? 0 : 1;
+    size_t end = is_sequence(margin) && !solution->log ? 3 : 2;
+    if (!impulse)
         return PERCUSS_INTERNAL;
-    scene.friction = friction;
-    for (int sign = is_sequence(margin) ? -1 : 1; sign <= 1; sign += 2) {
-        for (size_t i = 0; i < n; i++) {
-            const struct contact_friction *of = &problem->friction[i];
-            friction[i] = solution->scene->friction[i];
-            friction[i].coefficient =
-                fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
-        }
-        struct attempt attempt = {.accuracy = friction_accuracy(margin),
-                                  .assembly = solution->assembly,
-                                  .profile = STEP_PROFILE_ROUGH};
-        enum percuss_status status = attempt_run(&context, &attempt, &scene);
+    for (size_t i = first; i < end; i++) {
+        struct attempt other;
+        enum percuss_status status = solve_coefficients(margin, &context, deviations[i], &other);
         if (status)
             return status;
-        if (attempt_is_spent(&attempt)) {
-            error->friction = INFINITY;
-            for (size_t i = 0; i < n; i++)
-                error->tangential[problem->friction[i].contact] = INFINITY;
+        if (attempt_is_spent(&other)) {
+            unknown_by_friction(problem, error);
             return PERCUSS_OK;
         }
-        const struct impact_outcome *other = &attempt.outcome;
-        for (size_t i = 0; i < n; i++) {
-            size_t c = problem->friction[i].contact;
-            error->tangential[c] =
-                fmax(error->tangential[c], outcome_tangential_change(&solution->outcome, other, c));
-        }
-        for (size_t c = 0; c < problem->contact_count; c++) {
-            double change = fabs(solution->outcome.tracks[c].impulse - other->tracks[c].impulse);
-            error->impulse[c] = hypot(error->impulse[c], change);
-            if (problem->impulse_compression[c] > 0.0)
-                error->friction = fmax(error->friction, change / problem->impulse_compression[c]);
-        }
+        if (i == 0)
+            base = other;
+        widen_by_friction(problem, &base.outcome, &other.outcome, error->tangential, impulse);
+    }
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        error->impulse[c] = hypot(error->impulse[c], impulse[c]);
+        if (problem->impulse_compression[c] > 0.0)
+            error->friction = fmax(error->friction, impulse[c] / problem->impulse_compression[c]);
     }
     return PERCUSS_OK;
 }

@@ -121,8 +121,7 @@ static enum percuss_status follow_omitted(struct attempt_context *context, struc
     const struct omitted *omitted = &best->assembly->omitted[0];
     const struct sensitivity_source source = {.viscosity = omitted->viscosity,
                                               .inertia = omitted->inertia};
-    if (!attempt_truncate(context->problem, &best->assembly->scene, &best->outcome,
-                          TRUNCATED_FIRST_ORDER, &scene))
+    if (!attempt_followed_scene(context->problem, &best->assembly->scene, &best->outcome, &scene))
         return PERCUSS_INTERNAL;
     best->path = sensitivity_path_create(&scene, best->log, context->arena);
     return sensitivity_follow(best->path, &source, context->pace, tangent);
