@@ -41,9 +41,9 @@ static double complex rayleigh_function(double complex x, double ratio)
     return g * g - 4.0 * x * x * csqrt(x * x - ratio * ratio) * csqrt(x * x - 1.0);
 }
 
-/* Lamb's integral from 0 to 3 on an arc above the axis, past every singularity: what lies beyond is
+/* Lamb's integrals from 0 to 3 on an arc above the axis, past every singularity: what lies beyond is
  * real. Midpoints whose ends are passed with vanishing speed. */
-static double lag_by_contour(double ratio)
+static double lag_by_contour(double ratio, bool along)
 {
     enum { POINTS = 4000 };
     double complex sum = 0.0;
@@ -53,7 +53,9 @@ static double lag_by_contour(double ratio)
         double speed = pi * (1.0 - cos(2.0 * pi * u)) / POINTS;
         double complex x = 1.5 * (1.0 - cos(s)) + 0.7 * I * sin(s);
         double complex dx = speed * (1.5 * sin(s) + 0.7 * I * cos(s));
-        sum += x * csqrt(x * x - ratio * ratio) / rayleigh_function(x, ratio) * dx;
+        double complex a = csqrt(x * x - ratio * ratio), b = csqrt(x * x - 1.0);
+        double complex f = rayleigh_function(x, ratio);
+        sum += x * (along ? 0.5 * (1.0 / b - b / f) : a / f) * dx;
     }
     return fabs(cimag(sum)) / (2.0 * pi);
 }
@@ -63,14 +65,17 @@ static void the_power_is_lamb_s(void **state)
     (void)state;
     for (size_t i = 0; i < MATERIALS; i++) {
         struct material material = unit_material(POISSON[i]);
-        /* the rule's error with its 64 points */
+        /* the rule's error with its 64 points: 2.4e-7 along the surface, of Poisson's ratio -0.5 */
         double lag = half_space_waves_of(&material).lag;
-        near(lag, lag_by_contour(speed_ratio(POISSON[i])), 1e-9);
+        double along = half_space_waves_of(&material).lag_along;
+        near(lag, lag_by_contour(speed_ratio(POISSON[i]), false), 1e-9);
+        near(along, lag_by_contour(speed_ratio(POISSON[i]), true), 1e-6);
         /* dimensions: 1/(mu c_T) */
         material.young *= 70e9;
         material.density *= 2700.0;
         double scale = 70e9 * sqrt(70e9 / 2700.0);
         near(half_space_waves_of(&material).lag * scale, lag, 1e-12);
+        near(half_space_waves_of(&material).lag_along * scale, along, 1e-12);
     }
 }
 

@@ -3,6 +3,7 @@
 
 /* Mirrors service/core/solve/error/deviation.c: shifted models are the same ones with other
  * numbers. */
+#include "model/half_space.h"
 #include "solve/error/deviation.h"
 #include "unit/solve/search_lab.h"
 
@@ -81,10 +82,51 @@ static void later_yield_gives_more_back(void **state)
     lab_free(lab);
 }
 
+/* A ball that never slips on a half-space, u'' = -W (k u + lag k^2 u'), k = kappa K(t): the waves
+ * along the surface change the tangential impulse, integrated here, by less than their part of the
+ * error, of a coefficient that is just enough, but not by much less. */
+static void waves_along_a_half_space(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.1, 1.0, 5.0};
+    struct search *search = search_create();
+    lab_add(search->lab, "floor", make_body(&half_space_kind, ALUMINIUM));
+    for (size_t i = 0; i < COUNT(speeds); i++) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), wall_spot("floor"), speeds[i]);
+        request.contacts[0].friction = 0.3;
+        struct attempt_context *context = search_begin(search, &request);
+        const struct problem *problem = context->problem;
+        const struct contact_friction *friction = problem->friction;
+        double lag = half_space_waves_of(&problem_body(problem, 0, 1)->material).lag_along;
+        double mass = problem->bodies[0]->mass, w = problem->row_w[4];
+        double hertz = problem->hertz[0].stiffness, kappa = friction->ratio[0];
+        double slip[2]; /* of 1 m/s, without waves and with them */
+        for (int waves = 0; waves < 2; waves++) {
+            double d = 0.0, rate = speeds[i], u = 0.0, v = 1.0;
+            double h = 1e-4 * pow(mass * mass / (hertz * hertz * speeds[i]), 0.2);
+            for (; d >= 0.0; d += h * rate) {
+                double k = 1.5 * kappa * hertz * sqrt(d);
+                rate -= h * hertz * d * sqrt(d) / mass;
+                v -= h * w * (k * u + waves * lag * k * k * v);
+                u += h * v;
+            }
+            slip[waves] = v;
+        }
+        double rest = fabs(slip[1] - slip[0]) / w; /* N s of 1 m/s */
+        /* the least coefficient that holds it: kappa u'/d' */
+        double limit = kappa / speeds[i] * 2.0 * mass * speeds[i];
+        double share = deviation_along(problem, friction);
+        assert_true(rest < share * limit && rest > 0.7 * share * limit);
+    }
+    search_free(search);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_is_speed),
+        cmocka_unit_test(waves_along_a_half_space),
         cmocka_unit_test(compliance_softens),
         cmocka_unit_test(later_yield_gives_more_back),
     };
