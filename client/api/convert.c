@@ -67,6 +67,28 @@ static enum percuss_result check_count(const char *field, size_t count, size_t m
                      field, count, most);
 }
 
+/* A row for every contact, or three, as many as the wire has room for. */
+static enum percuss_result convert_delassus(const struct percuss_request *request,
+                                            percuss_v1_Request *wire)
+{
+    size_t contacts = request->contact_count;
+    size_t rows = request->delassus_rows ? request->delassus_rows : contacts;
+    if (rows != contacts && rows != 3 * contacts)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "delassus_rows: %zu: 0, %zu (contact_count) or %zu (3 contact_count) is "
+                         "allowed",
+                         rows, contacts, 3 * contacts);
+    if (rows * rows > PERCUSS_MAX_DELASSUS)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "delassus_rows: %zu, 3 for each of %zu contacts: are too many; of normals "
+                         "and tangents up to %d contacts are allowed",
+                         rows, contacts, PERCUSS_MAX_CONTACTS_OBLIQUE);
+    /* writing only reads it */
+    wire->delassus._buffer = (double *)request->delassus;
+    wire->delassus._length = wire->delassus._maximum = (uint32_t)(rows * rows);
+    return PERCUSS_RESULT_OK;
+}
+
 enum percuss_result convert_request(const struct percuss_request *request,
                                     struct request_storage *storage, percuss_v1_Request *wire)
 {
@@ -80,19 +102,13 @@ enum percuss_result convert_request(const struct percuss_request *request,
     for (size_t i = 0; i < request->contact_count; i++)
         convert_contact(&request->contacts[i], &storage->contacts[i]);
 
-    uint32_t contacts = (uint32_t)request->contact_count;
     *wire = (percuss_v1_Request){0};
     convert_options(&request->options, &wire->options);
     wire->bodies._buffer = storage->bodies;
     wire->bodies._length = wire->bodies._maximum = (uint32_t)request->body_count;
     wire->contacts._buffer = storage->contacts;
-    wire->contacts._length = wire->contacts._maximum = contacts;
-    if (request->delassus) {
-        /* writing only reads it */
-        wire->delassus._buffer = (double *)request->delassus;
-        wire->delassus._length = wire->delassus._maximum = contacts * contacts;
-    }
-    return PERCUSS_RESULT_OK;
+    wire->contacts._length = wire->contacts._maximum = (uint32_t)request->contact_count;
+    return request->delassus ? convert_delassus(request, wire) : PERCUSS_RESULT_OK;
 }
 
 /* Requests of ensembles. */

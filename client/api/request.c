@@ -21,6 +21,7 @@ void percuss_request_init(struct percuss_request *request)
     request->body_count = 0;
     request->contact_count = 0;
     request->delassus = NULL;
+    request->delassus_rows = 0;
     request->options = percuss_options_default();
 }
 

@@ -285,22 +285,47 @@ static bool read_contacts(const json_t *array, const struct json_path *path,
     return true;
 }
 
-/* n rows of n numbers, or n^2 numbers, for the n contacts, which are read before. */
+/* Rows of a matrix for the n contacts: n, or 3n with their tangents, as far as the wire has room.
+ */
+static bool choose_rows(size_t given, const struct json_path *path, struct json_request *request,
+                        struct json_fault *fault)
+{
+    size_t contacts = request->request.contact_count, rows = 3 * contacts;
+    request->request.delassus = request->delassus;
+    request->request.delassus_rows = given == rows ? rows : contacts;
+    if (given != contacts && given != rows)
+        return json_fail(fault, path,
+                         "%zu rows are needed, one a contact, or %zu with both tangents, not %zu",
+                         contacts, rows, given);
+    if (given * given > PERCUSS_MAX_DELASSUS)
+        return json_fail(fault, path,
+                         "%zu rows are too many: of normals and tangents up to %d contacts are "
+                         "allowed, not %zu",
+                         given, PERCUSS_MAX_CONTACTS_OBLIQUE, contacts);
+    return true;
+}
+
+/* Rows of numbers, or all numbers in one list. The contacts are read before. */
 static bool read_delassus(const json_t *array, const struct json_path *path,
                           struct json_request *request, struct json_fault *fault)
 {
     size_t contacts = request->request.contact_count;
     if (!json_is_array(array))
         return json_fail(fault, path, "an array is needed, not %s", json_kind_of(array));
-    request->request.delassus = request->delassus;
-    if (!json_is_array(json_array_get(array, 0)))
-        return json_read_numbers(array, path, contacts * contacts, request->delassus, fault);
-    if (json_array_size(array) != contacts)
-        return json_fail(fault, path, "%zu rows are needed, one a contact, not %zu", contacts,
-                         json_array_size(array));
-    for (size_t i = 0; i < contacts; i++)
-        if (!json_read_numbers(json_array_get(array, i), &(struct json_path){path, NULL, i},
-                               contacts, request->delassus + i * contacts, fault))
+    size_t given = json_array_size(array);
+    bool flat = !json_is_array(json_array_get(array, 0));
+    if (flat && given != contacts * contacts && given != 9 * contacts * contacts)
+        return json_fail(fault, path, "%zu numbers are needed, or %zu with both tangents, not %zu",
+                         contacts * contacts, 9 * contacts * contacts, given);
+    if (flat)
+        given = given == contacts * contacts ? contacts : 3 * contacts;
+    if (!choose_rows(given, path, request, fault))
+        return false;
+    if (flat)
+        return json_read_numbers(array, path, given * given, request->delassus, fault);
+    for (size_t i = 0; i < given; i++)
+        if (!json_read_numbers(json_array_get(array, i), &(struct json_path){path, NULL, i}, given,
+                               request->delassus + i * given, fault))
             return false;
     return true;
 }
@@ -406,7 +431,8 @@ json_t *request_schema(void)
     json_t *matrix = json_pack("{sss{s[ss]}ss}", "type", "array", "items", "type", "number",
                                "array", "description",
                                "1/kg; n rows of n numbers for n contacts, W of the simulator's own "
-                               "bodies; absent: of the catalogue's");
+                               "bodies; where a contact has friction 3n rows of 3n: normal, first "
+                               "and second tangent of each; absent: of the catalogue's");
     json_t *options = json_schema(options_members(), true);
     json_object_set_new(options, "description", json_string("how it is solved"));
     json_t *client = json_pack(

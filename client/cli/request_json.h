@@ -12,7 +12,7 @@
 
 struct json_request {
     struct percuss_request request; /* its delassus points into `delassus` */
-    double delassus[PERCUSS_MAX_CONTACTS * PERCUSS_MAX_CONTACTS];
+    double delassus[PERCUSS_MAX_DELASSUS];
     bool has_client;
     uint8_t client[16];
 };

@@ -110,11 +110,15 @@ bool take_question(const percuss_msgs_msg_dds__Question_ *question, struct percu
     if (!fits("bodies", bodies, PERCUSS_MAX_BODIES, problem) ||
         !fits("contacts", contacts, PERCUSS_MAX_CONTACTS, problem))
         return false;
-    if (numbers != 0 && numbers != contacts * contacts) {
-        snprintf(problem, TAKE_PROBLEM_SIZE, "delassus: %u numbers, %u or none are allowed",
-                 numbers, contacts * contacts);
+    bool oblique = numbers == 9 * contacts * contacts;
+    if (numbers != 0 && numbers != contacts * contacts && !oblique) {
+        snprintf(problem, TAKE_PROBLEM_SIZE,
+                 "delassus: %u numbers, %u, %u (with both tangents) or none are allowed", numbers,
+                 contacts * contacts, 9 * contacts * contacts);
         return false;
     }
+    if (!fits("delassus", numbers, PERCUSS_MAX_DELASSUS, problem))
+        return false;
     /* the rest as it is */
     percuss_request_init(request);
     request->body_count = bodies;
@@ -125,6 +129,7 @@ bool take_question(const percuss_msgs_msg_dds__Question_ *question, struct percu
     for (uint32_t i = 0; i < contacts; i++)
         take_contact(&question->contacts._buffer[i], &request->contacts[i]);
     request->delassus = numbers ? question->delassus._buffer : NULL;
+    request->delassus_rows = numbers && oblique ? 3 * contacts : 0;
     take_options(&question->options, &request->options);
     return true;
 }

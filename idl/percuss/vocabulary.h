@@ -111,6 +111,8 @@ enum {
     PERCUSS_ID_SIZE = 64,
     PERCUSS_MAX_BODIES = 64,
     PERCUSS_MAX_CONTACTS = 64,
+    PERCUSS_MAX_CONTACTS_OBLIQUE = 21, /* with a matrix of their normals and tangents */
+    PERCUSS_MAX_DELASSUS = 4096,       /* numbers of a matrix */
     PERCUSS_MAX_SUB_IMPACTS = 256,
     PERCUSS_MAX_SITES = 32,
     PERCUSS_MAX_BATCH = 256

@@ -277,12 +277,31 @@ static void decode_options(struct check *check, const percuss_v1_Options *from,
     PERCUSS_OPTION_FIELDS(TAKE)
 }
 
+/* The matrix of a request, with `each` rows a contact: its normal's, or those of both tangents too.
+ */
+struct stated_matrix {
+    const double *values;
+    size_t rows, each;
+};
+
+/* The largest inverse mass of a row's contact: along a tangent a mechanism may not move, and what
+ * its numbers are rounded by are those of the other directions. */
+static double matrix_row_scale(const struct stated_matrix *matrix, size_t row)
+{
+    size_t first = row / matrix->each * matrix->each;
+    double largest = 0.0;
+    for (size_t r = first; r < first + matrix->each; r++)
+        largest = fmax(largest, matrix->values[r * (matrix->rows + 1)]);
+    return largest;
+}
+
 /* A coupling of zero has rounding errors as large as those of the diagonals. */
-static void check_delassus_pair(struct check *check, const double *matrix, size_t count, size_t row,
+static void check_delassus_pair(struct check *check, const struct stated_matrix *matrix, size_t row,
                                 size_t column)
 {
-    double upper = matrix[row * count + column], lower = matrix[column * count + row];
-    double size = sqrt(matrix[row * (count + 1)]) * sqrt(matrix[column * (count + 1)]);
+    double upper = matrix->values[row * matrix->rows + column];
+    double lower = matrix->values[column * matrix->rows + row];
+    double size = sqrt(matrix_row_scale(matrix, row)) * sqrt(matrix_row_scale(matrix, column));
     check_that(check, isfinite(upper) && isfinite(lower),
                "delassus[%zu][%zu]: %g: must be finite, as its mirror image %g", row, column, upper,
                lower);
@@ -291,21 +310,42 @@ static void check_delassus_pair(struct check *check, const double *matrix, size_
                upper, column, row, lower, DELASSUS_ASYMMETRY * size);
 }
 
-static void check_delassus(struct check *check, const dds_sequence_double *matrix, size_t count)
+/* A contact moves along its normal; along a tangent it need not. */
+static void check_delassus_diagonal(struct check *check, const struct stated_matrix *matrix,
+                                    size_t row)
 {
-    check_that(check, matrix->_length == count * count,
-               "delassus: %u numbers: must be none or %zu x %zu, a row for every contact",
-               matrix->_length, count, count);
-    for (size_t row = 0; !check->status && row < count; row++) {
-        double diagonal = matrix->_buffer[row * count + row];
-        check_that(check, isfinite(diagonal) && diagonal > 0.0,
-                   "delassus[%zu][%zu]: %g: must be finite and > 0", row, row, diagonal);
-        check_that(check, diagonal <= DELASSUS_LARGEST,
-                   "delassus[%zu][%zu]: %g: must be at most %g", row, row, diagonal,
-                   DELASSUS_LARGEST);
+    double diagonal = matrix->values[row * (matrix->rows + 1)];
+    bool normal = row % matrix->each == 0;
+    check_that(check, isfinite(diagonal) && (normal ? diagonal > 0.0 : diagonal >= 0.0),
+               "delassus[%zu][%zu]: %g: must be finite and %s 0", row, row, diagonal,
+               normal ? ">" : ">=");
+    check_that(check, diagonal <= DELASSUS_LARGEST, "delassus[%zu][%zu]: %g: must be at most %g",
+               row, row, diagonal, DELASSUS_LARGEST);
+}
+
+static void check_delassus(struct check *check, const struct stated_matrix *matrix)
+{
+    for (size_t row = 0; !check->status && row < matrix->rows; row++)
+        check_delassus_diagonal(check, matrix, row);
+    for (size_t row = 0; !check->status && row < matrix->rows; row++)
         for (size_t column = 0; column < row; column++)
-            check_delassus_pair(check, matrix->_buffer, count, row, column);
-    }
+            check_delassus_pair(check, matrix, row, column);
+}
+
+/* Whether some contact has friction is the solver's to find: the catalogue may say so. */
+static void decode_delassus(struct check *check, const dds_sequence_double *from, size_t contacts,
+                            struct solve_request *request)
+{
+    size_t numbers = from->_length;
+    request->delassus_oblique = numbers > 0 && numbers == 9 * contacts * contacts;
+    request->delassus = numbers > 0 ? from->_buffer : NULL;
+    size_t each = request->delassus_oblique ? 3 : 1, rows = each * contacts;
+    check_that(check, numbers == 0 || numbers == rows * rows,
+               "delassus: %zu numbers: must be none, %zu x %zu, a row for every contact, or %zu x "
+               "%zu, rows for its normal and both tangents",
+               numbers, contacts, contacts, 3 * contacts, 3 * contacts);
+    if (!check->status && numbers > 0)
+        check_delassus(check, &(struct stated_matrix){from->_buffer, rows, each});
 }
 
 /* An object is in one place at a time. */
@@ -349,13 +389,11 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
     memset(request->model_shift, 0, sizeof request->model_shift);
     request->friction = (struct solve_friction){.given = false};
     check_enter(&check, NULL, CHECK_NO_LIST);
-    if (wire->delassus._length > 0)
-        check_delassus(&check, &wire->delassus, contact_count);
+    decode_delassus(&check, &wire->delassus, contact_count, request);
     check_enter(&check, "options", CHECK_NO_LIST);
     decode_options(&check, &wire->options, &request->options);
     request->body_count = body_count;
     request->contact_count = contact_count;
-    request->delassus = wire->delassus._length > 0 ? wire->delassus._buffer : NULL;
     return check.status;
 }
 

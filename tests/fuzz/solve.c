@@ -141,13 +141,19 @@ static void add_override(struct scene *scene, const struct change *change)
             (percuss_v1_Override){change->member % PERCUSS_PARAMETER_COUNT, change->value};
 }
 
-/* The client's own inverse masses: first all alone, then couplings. */
+/* The client's own inverse masses, of normals or of tangents too: first all alone, then couplings.
+ */
 static void change_delassus(struct scene *scene, const struct change *change)
 {
     size_t n = scene->wire.contacts._length;
-    if (scene->wire.delassus._length == 0)
+    bool oblique = change->how & 0x80 && n <= PERCUSS_MAX_CONTACTS_OBLIQUE;
+    if (oblique || scene->wire.delassus._length == 9 * n * n)
+        n *= 3;
+    if (scene->wire.delassus._length != n * n) {
+        memset(scene->delassus, 0, sizeof scene->delassus);
         for (size_t i = 0; i < n; i++)
             scene->delassus[i * (n + 1)] = 30.0;
+    }
     scene->wire.delassus._length = (uint32_t)(n * n);
     size_t row = change->index % n, column = change->member % n;
     change_number(&scene->delassus[row * n + column], change);

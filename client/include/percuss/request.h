@@ -67,9 +67,16 @@ struct percuss_request {
     size_t body_count, contact_count;
     struct percuss_body_motion bodies[PERCUSS_MAX_BODIES];
     struct percuss_contact contacts[PERCUSS_MAX_CONTACTS];
-    const double *delassus; /* the caller's w^T M^-1 w, contact_count x contact_count, row-major,
+    const double *delassus; /* the caller's w^T M^-1 w, delassus_rows x delassus_rows, row-major,
                                1/kg; borrowed; NULL: the server's own */
     struct percuss_options options;
+    /* 0 or contact_count: a row for the normal of each contact. 3 contact_count: row 3i is the
+     * normal of contact i, 3i + 1 its first tangent and 3i + 2 its second one, normal x first. Row
+     * r of w has velocity of a's point against b's along its direction = w_r . (the simulator's
+     * generalized velocities). A request in which a contact has friction needs 3 contact_count, of
+     * up to PERCUSS_MAX_CONTACTS_OBLIQUE contacts; of those without, the tangents' numbers are not
+     * used. */
+    size_t delassus_rows;
 };
 
 /* Every option at its default. */

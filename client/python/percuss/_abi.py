@@ -93,6 +93,7 @@ class Request(ctypes.Structure):
         ("contacts", Contact * MAX_CONTACTS),
         ("delassus", POINTER(c_double)),
         ("options", Options),
+        ("delassus_rows", c_size_t),
     ]
 
 

@@ -17,7 +17,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _abi, _convert
-from .vocabulary import MAX_BODIES, MAX_CONTACTS, Choice, Compliance, ContactModel, Dents, Friction, Method, Parameter
+from .vocabulary import (
+    MAX_BODIES,
+    MAX_CONTACTS,
+    MAX_CONTACTS_OBLIQUE,
+    Choice,
+    Compliance,
+    ContactModel,
+    Dents,
+    Friction,
+    Method,
+    Parameter,
+)
 
 FloatArray = NDArray[np.float64]
 _ChoiceType = TypeVar("_ChoiceType", bound=Choice)
@@ -169,7 +180,9 @@ class Request:
     bodies: list[BodyMotion] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
     delassus: Optional[ArrayLike] = None
-    """The caller's w^T M^-1 w, contacts x contacts, 1/kg; None: the server computes its own."""
+    """The caller's w^T M^-1 w, 1/kg, of n contacts: n x n for their normals, or 3n x 3n, which friction needs: rows
+    normal, first and second tangent of contact 0, then of contact 1, ... A list of all its numbers will do. None: the
+    server computes its own."""
     options: Options = field(default_factory=Options)
     sequence: int = 0
     """0: the client counts. Set it to repeat a request after a time-out."""
@@ -206,9 +219,20 @@ def _delassus(request: Request) -> FloatArray | None:
         return None
     n = len(request.contacts)
     matrix = np.ascontiguousarray(request.delassus, dtype=np.float64)
-    if matrix.shape != (n, n):
-        raise ValueError(f"delassus: shape {matrix.shape}: ({n}, {n}), contacts x contacts, is allowed")
-    return matrix
+    for rows in (n, 3 * n):
+        if matrix.shape in ((rows, rows), (rows * rows,)):
+            break
+    else:
+        raise ValueError(
+            f"delassus: shape {matrix.shape}: ({n}, {n}), contacts x contacts, or ({3 * n}, {3 * n}), with both tangents "
+            "of each, is allowed"
+        )
+    if rows > n > MAX_CONTACTS_OBLIQUE:
+        raise ValueError(
+            f"delassus: shape {matrix.shape}: of normals and tangents up to {MAX_CONTACTS_OBLIQUE} contacts are allowed, "
+            f"not {n}"
+        )
+    return matrix.reshape(rows, rows)
 
 
 def fill(request: Request, target: _abi.Request) -> object:
@@ -225,6 +249,7 @@ def fill(request: Request, target: _abi.Request) -> object:
     _fill_contacts(request.contacts, target.contacts)
     if matrix is not None:
         target.delassus = matrix.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+        target.delassus_rows = len(matrix)
     _convert.fill(request.options, target.options, "options")
     return matrix
 

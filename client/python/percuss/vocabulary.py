@@ -228,6 +228,10 @@ ID_SIZE = 64
 """Bytes of an id, token or specimen's name with its terminating zero."""
 MAX_BODIES = 64
 MAX_CONTACTS = 64
+MAX_CONTACTS_OBLIQUE = 21
+"""Contacts of a request with a matrix of their normals and tangents."""
+MAX_DELASSUS = 4096
+"""Numbers of a matrix."""
 MAX_SUB_IMPACTS = 256
 MAX_BATCH = 256
 MAX_SITES = 32

@@ -114,6 +114,41 @@ class Solving(Beside):
         self.assertAlmostEqual(reply.contacts[0].impulse_compression, 0.2 / 9.0, delta=1e-16)
         self.assertTrue(any("delassus" in warning for warning in reply.warnings), reply.warnings)
 
+    def test_delassus_with_tangents(self) -> None:
+        question = self.question()
+        sphere, beam = question.bodies
+        sphere.velocity = [0.1, 0.05, sphere.velocity[2]]
+        question.contacts[0].friction = 0.2
+        question.contacts[0].tangent = [1.0, 0.0, 0.0]
+        own = self.client.solve(question).raise_for_status().contacts[0]
+        # the shipped ball on the middle of the shipped beam: 7/2 of the ball's 1/m; the beam's shifts, and its turn
+        # about its axis by a force along y or about y by one along x
+        m, w = 7800.0 * 4.0 / 3.0 * np.pi * 0.015**3, own.inverse_effective_mass
+        m_beam = 2700.0 * np.pi * 0.010**2
+        self.assertAlmostEqual(w, 1.0 / m + 1.0 / m_beam, delta=1e-9 * w)
+        along = 3.5 / m + 1.0 / m_beam + 0.010**2 / (m_beam * (0.010**2 / 4.0 + 1.0 / 12.0))
+        across = 3.5 / m + 1.0 / m_beam + 2.0 / m_beam
+        matrix = np.diag([w, along, across])
+        for shape in (matrix, matrix.reshape(-1), matrix.tolist(), matrix.reshape(-1).tolist()):
+            question.delassus = shape
+            reply = self.client.solve(question).raise_for_status()
+            self.assertEqual(reply.delassus_source, percuss.DelassusSource.CLIENT)
+            self.assertFalse(any("delassus" in warning for warning in reply.warnings), reply.warnings)
+            np.testing.assert_allclose(
+                reply.contacts[0].impulse_tangential, own.impulse_tangential, rtol=0, atol=1e-9 * own.impulse
+            )
+            self.assertAlmostEqual(reply.contacts[0].impulse, own.impulse, delta=1e-9 * own.impulse)
+        question.delassus = np.diag([w, 1.05 * along, across])
+        reply = self.client.solve(question).raise_for_status()
+        self.assertTrue(any("delassus: differs" in warning for warning in reply.warnings), reply.warnings)
+        # friction needs the tangents' rows
+        question.delassus = [[w]]
+        reply = self.client.solve(question)
+        self.assertEqual(reply.status, percuss.Status.BAD_REQUEST)
+        self.assertIn("delassus: 1 x 1 numbers: where a contact has friction it must be 3 x 3", reply.message)
+        question.options.friction = percuss.Friction.NONE
+        self.client.solve(question).raise_for_status()
+
     def test_state_token(self) -> None:
         question = self.question()
         first = self.client.solve(question).raise_for_status()
@@ -317,7 +352,8 @@ class Mistakes(Beside):
             (question.bodies[1], "state", "a\0b", r"bodies\[1\].state: .*63 bytes"),
             (question.contacts[0], "a", -1, r"contacts\[0\].a: -1: 0..63"),
             (question, "sequence", 2**64, "sequence: "),
-            (question, "delassus", np.eye(2), r"delassus: shape \(2, 2\): \(1, 1\)"),
+            (question, "delassus", np.eye(2), r"delassus: shape \(2, 2\): \(1, 1\), .*, or \(3, 3\)"),
+            (question, "delassus", np.ones(4), r"delassus: shape \(4,\): \(1, 1\)"),
             (question, "bodies", [question.bodies[0]] * 65, "bodies: 65 are too many; up to 64"),
             (question, "contacts", [question.contacts[0]] * 65, "contacts: 65 are too many; up to 64"),
         ]
@@ -328,6 +364,10 @@ class Mistakes(Beside):
                 self.client.submit(question)
             setattr(target, name, good)
         self.client.solve(question).raise_for_status()
+        question.contacts = [question.contacts[0]] * 22
+        question.delassus = np.eye(66)
+        with self.assertRaisesRegex(ValueError, r"delassus: shape \(66, 66\): .* up to 21 contacts are allowed, not 22"):
+            self.client.submit(question)
 
     def test_calls(self) -> None:
         with self.assertRaisesRegex(percuss.InvalidArgument, "timeout: -1"):

@@ -320,12 +320,23 @@ static void reference_system_roots(double t, const double *y, double *values, vo
     }
 }
 
+/* The inverse mass that a row's tolerances are made of: its own, or of a tangent along which the
+ * bodies do not move rigidly that of its contact's normal. */
+static double tolerated_mass(const struct scene *scene, size_t row)
+{
+    size_t rows = scene_rows(scene);
+    double w = scene->w[row * (rows + 1)];
+    if (w > 0.0 || row < scene->contacts)
+        return w;
+    return scene->w[scene->friction[(row - scene->contacts) / 2].contact * (rows + 1)];
+}
+
 /* Gap, rate and impulse of a row with all the energy. */
 static void tolerate_row(struct reference_system *system, size_t row, double relative,
                          double energy, double travel)
 {
     size_t n = system->rows;
-    double w = system->scene->w[row * n + row];
+    double w = tolerated_mass(system->scene, row);
     double v = sqrt(2.0 * energy * w);
     system->absolute[row] = relative * travel;
     system->absolute[n + row] = relative * v;
@@ -344,7 +355,7 @@ static void reference_system_tolerate(struct reference_system *system, const str
     double energy = LEAST_ENERGY;
     for (size_t r = 0; r < rows; r++) {
         double v = scene->gap_rate[r];
-        energy += 0.5 * v * v / scene->w[r * rows + r];
+        energy += 0.5 * v * v / tolerated_mass(scene, r);
     }
     for (size_t g = 0; g < scene->groups; g++)
         for (size_t b = 0; b < scene->bodies; b++)

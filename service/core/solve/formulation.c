@@ -195,24 +195,35 @@ static void find_rates(struct problem *problem, size_t index)
     add_scaled3(-problem->gap_rate[index], normal, sliding);
 }
 
-/* w_i^T M^-1 w_j from the bodies that both contacts share. */
-static void find_service_w(struct problem *problem)
+/* The request's w_i^T M^-1 w_j, or that of the bodies which both rows share. */
+static double inverse_mass(const struct problem *problem, size_t i, size_t j)
 {
-    size_t n = problem->contact_count;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            problem->service_w[i * n + j] = problem_inverse_mass(problem, i, j);
+    return problem->from_client ? problem->request->delassus[problem_stated_place(problem, i, j)]
+                                : problem_inverse_mass(problem, i, j);
 }
 
-static enum percuss_status choose_w(struct problem *problem, struct fault *fault)
+/* Of the tangents too. Symmetric to the bit: rows of which one moves the other by rounding alone
+ * are not coupled one way. False: out of memory. */
+static bool fill_row_w(struct problem *problem)
+{
+    size_t n = problem->contact_count, rows = problem_rows(problem);
+    problem->row_w = problem->w;
+    if (problem->friction_count == 0)
+        return true;
+    problem->row_w = arena_take(problem->arena, rows * rows, sizeof *problem->row_w);
+    if (!problem->row_w)
+        return false;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j <= i; j++)
+            problem->row_w[i * rows + j] = problem->row_w[j * rows + i] =
+                i < n ? problem->w[i * n + j] : inverse_mass(problem, i, j);
+    return true;
+}
+
+/* Every contact must be able to move along its normal. */
+static enum percuss_status check_motion(const struct problem *problem, struct fault *fault)
 {
     size_t n = problem->contact_count;
-    /* the simulator's own where it sends one */
-    find_service_w(problem);
-    problem->from_client = problem->request->delassus != NULL;
-    memcpy(problem->w, problem->request->delassus ? problem->request->delassus : problem->service_w,
-           n * n * sizeof *problem->w);
-    /* every contact must be able to move */
     for (size_t i = 0; i < n; i++) {
         if (problem->w[i * n + i] >= MIN_INVERSE_MASS &&
             problem->w[i * n + i] <= 1.0 / MIN_INVERSE_MASS)
@@ -220,37 +231,84 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
         if (problem->from_client)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "delassus[%zu]: %g: the diagonal must be between %g and %g 1/kg",
-                             i * n + i, problem->w[i * n + i], MIN_INVERSE_MASS,
-                             1.0 / MIN_INVERSE_MASS);
+                             problem_stated_place(problem, i, i), problem->w[i * n + i],
+                             MIN_INVERSE_MASS, 1.0 / MIN_INVERSE_MASS);
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: neither %s nor %s can move rigidly there: at least one "
                          "partner must (or send the simulator's delassus)",
                          i, problem_body(problem, i, 0)->id, problem_body(problem, i, 1)->id);
     }
-    if (n == 1)
-        return PERCUSS_OK;
-    /* and the matrix be symmetric */
-    for (size_t i = 0; i < n; i++)
+    return PERCUSS_OK;
+}
+
+/* A matrix of all rows must be symmetric, to the rounding of their contacts' inverse masses. */
+static enum percuss_status check_symmetry(const struct problem *problem, struct fault *fault)
+{
+    size_t rows = problem_rows(problem);
+    for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < i; j++) {
-            double scale = sqrt(problem->w[i * (n + 1)]) * sqrt(problem->w[j * (n + 1)]);
-            double a = problem->w[i * n + j];
-            double b = problem->w[j * n + i];
+            double scale =
+                sqrt(problem_row_scale(problem, i)) * sqrt(problem_row_scale(problem, j));
+            double a = inverse_mass(problem, i, j);
+            double b = inverse_mass(problem, j, i);
             if (!(fabs(a - b) <= ASYMMETRY * scale))
                 return fault_set(fault, PERCUSS_BAD_REQUEST,
                                  "delassus[%zu] and [%zu]: %g and %g: the matrix must be symmetric",
-                                 i * n + j, j * n + i, a, b);
+                                 problem_stated_place(problem, i, j),
+                                 problem_stated_place(problem, j, i), a, b);
         }
-    /* and positive semidefinite */
-    double *scratch = arena_take(problem->arena, n * (2 * n + 1), sizeof *scratch);
+    return PERCUSS_OK;
+}
+
+/* And positive semidefinite: normals and tangents together. */
+static enum percuss_status check_definite(const struct problem *problem, struct fault *fault)
+{
+    size_t rows = problem_rows(problem);
+    double *scratch = arena_take(problem->arena, rows * (2 * rows + 1), sizeof *scratch);
     if (!scratch)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    double ratio = linear_pseudo_inverse(n, problem->w, NULL_EIGENVALUE, scratch, scratch + n * n);
+    double ratio = linear_pseudo_inverse(rows, problem->row_w, NULL_EIGENVALUE, scratch,
+                                         scratch + rows * rows);
     if (!(ratio >= -INDEFINITE))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "delassus: smallest eigenvalue is %g of the largest: the matrix must be "
                          "positive semidefinite",
                          ratio);
     return PERCUSS_OK;
+}
+
+/* A tangent along which a mechanism hardly moves is one along which it does not: the rest is
+ * rounding, of which the tolerances of rates would be made. */
+static void hold_tangents(struct problem *problem)
+{
+    size_t rows = problem_rows(problem);
+    for (size_t r = problem->contact_count; r < rows; r++) {
+        if (problem->row_w[r * (rows + 1)] > NULL_EIGENVALUE * problem_row_scale(problem, r))
+            continue;
+        for (size_t i = 0; i < rows; i++)
+            problem->row_w[r * rows + i] = problem->row_w[i * rows + r] = 0.0;
+    }
+}
+
+/* The simulator's own where it sends one. */
+static enum percuss_status choose_w(struct problem *problem, struct fault *fault)
+{
+    size_t n = problem->contact_count;
+    problem->from_client = problem->request->delassus != NULL;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            problem->w[i * n + j] = inverse_mass(problem, i, j);
+    if (!fill_row_w(problem))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = check_motion(problem, fault);
+    if (status || !problem->from_client)
+        return status;
+    status = check_symmetry(problem, fault);
+    if (!status && problem_rows(problem) > 1)
+        status = check_definite(problem, fault);
+    if (!status)
+        hold_tangents(problem);
+    return status;
 }
 
 /* 0 <= W P + gap rate, complementary to P >= 0: Eq. (4) for one contact. */
@@ -341,11 +399,10 @@ static bool allocate_contacts(struct problem *problem)
     problem->hertz = arena_take(problem->arena, n, sizeof *problem->hertz);
     problem->gap_rate = arena_take(problem->arena, 3 * n, sizeof(double));
     problem->sliding = arena_take(problem->arena, n, sizeof *problem->sliding);
-    problem->service_w = arena_take(problem->arena, n * n, sizeof(double));
     problem->w = arena_take(problem->arena, n * n, sizeof(double));
     problem->impulse_compression = arena_take(problem->arena, n, sizeof(double));
     return problem->sides && problem->hertz && problem->gap_rate && problem->sliding &&
-           problem->service_w && problem->w && problem->impulse_compression;
+           problem->w && problem->impulse_compression;
 }
 
 enum percuss_status placement_find_rates(struct problem *problem, struct fault *fault)
@@ -379,8 +436,6 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = choose_w(problem, fault);
-    if (!status && !oblique_find_rows(problem))
-        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = placement_find_rates(problem, fault);
     return status;

@@ -225,8 +225,13 @@ static void find_least(const struct problem *problem, size_t modes, double *leas
 {
     size_t n = problem_rows(problem);
     double share = LEFT_OUT * problem->tolerance / (4.0 * (double)(n * n * modes));
-    for (size_t r = 0; r < n; r++)
-        least[r] = share * problem->row_w[r * n + r];
+    for (size_t r = 0; r < n; r++) {
+        /* where a mechanism does not move along a tangent, its force is a share of the normal's */
+        double w = problem->row_w[r * (n + 1)];
+        if (!(w > 0.0))
+            w = problem->row_w[problem_row_contact(problem, r) * (n + 1)];
+        least[r] = share * w;
+    }
 }
 
 /* Whether a mode's participations, squared, are no more than that in any row. */

@@ -94,6 +94,20 @@ static void place_tangents(const struct problem *problem, struct contact_frictio
         }
 }
 
+/* A matrix of the normals alone says nothing of the tangents. */
+static enum percuss_status refuse_normals(const struct problem *problem, struct fault *fault)
+{
+    size_t n = problem->contact_count;
+    char instead[48] = "left out";
+    if (n <= PERCUSS_MAX_CONTACTS_OBLIQUE)
+        snprintf(instead, sizeof instead, "%zu x %zu", 3 * n, 3 * n);
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "delassus: %zu x %zu numbers: where a contact has friction it must be %s: 3 "
+                     "rows for each of up to %d contacts, of its normal, first and second tangent "
+                     "(options.friction none leaves friction out)",
+                     n, n, instead, PERCUSS_MAX_CONTACTS_OBLIQUE);
+}
+
 enum percuss_status oblique_find(struct problem *problem, const struct body_set *catalogue,
                                  struct fault *fault)
 {
@@ -111,10 +125,8 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
     if (problem->request->options.friction == PERCUSS_FRICTION_PLAIN)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.friction: plain: not computed yet: micro-slip or none");
-    if (problem->request->delassus)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "delassus: it must be absent where a contact has friction, as it says "
-                         "nothing of the tangents (options.friction none leaves friction out)");
+    if (problem->request->delassus && !problem->request->delassus_oblique)
+        return refuse_normals(problem, fault);
     problem->friction = arena_reserve(problem->arena, count, sizeof *problem->friction);
     if (!problem->friction)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -142,25 +154,6 @@ void oblique_turn(struct problem *problem, size_t body)
                     bending_axes_turn_load(problem->bodies[body], &problem->axes[body],
                                            &friction->sides[t][which].load);
     }
-}
-
-bool oblique_find_rows(struct problem *problem)
-{
-    size_t n = problem->contact_count;
-    size_t rows = problem_rows(problem);
-    problem->row_w = problem->w;
-    if (problem->friction_count == 0)
-        return true;
-    problem->row_w = arena_take(problem->arena, rows * rows, sizeof *problem->row_w);
-    if (!problem->row_w)
-        return false;
-    /* symmetric to the bit: rows of which one moves the other by rounding alone are not coupled one
-     * way */
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j <= i; j++)
-            problem->row_w[i * rows + j] = problem->row_w[j * rows + i] =
-                i < n ? problem->w[i * n + j] : problem_inverse_mass(problem, i, j);
-    return true;
 }
 
 /* The request's own reason, and how to go on. */

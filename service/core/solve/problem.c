@@ -56,6 +56,29 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
     return NULL;
 }
 
+size_t problem_stated_place(const struct problem *problem, size_t i, size_t j)
+{
+    size_t n = problem->contact_count;
+    if (!problem->request->delassus_oblique)
+        return i * n + j;
+    /* normals and tangents contact by contact */
+    const size_t row[2] = {i, j};
+    size_t at[2];
+    for (int k = 0; k < 2; k++)
+        at[k] = 3 * problem_row_contact(problem, row[k]) + (row[k] < n ? 0 : 1 + (row[k] - n) % 2);
+    return at[0] * 3 * n + at[1];
+}
+
+double problem_row_scale(const struct problem *problem, size_t row)
+{
+    size_t rows = problem_rows(problem);
+    double largest = 0.0;
+    for (size_t r = 0; r < rows; r++)
+        if (problem_row_contact(problem, r) == problem_row_contact(problem, row))
+            largest = fmax(largest, problem->row_w[r * (rows + 1)]);
+    return largest;
+}
+
 double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
 {
     double sum = 0.0;

@@ -82,11 +82,10 @@ struct problem {
                                          follows from it */
     size_t friction_count;
     struct contact_friction *friction; /* [friction_count], ascending contacts */
-    double *service_w;                 /* contacts^2, from the bodies */
-    double *w;                         /* the one in use */
+    double *w;                         /* contacts^2, from the bodies or the request, 1/kg */
     double *row_w;                     /* the same of all rows (impact/scene.h), rows^2 */
     double *impulse_compression;       /* [contact], Eq. (4) or its complementarity problem, N s */
-    bool from_client;                  /* that W */
+    bool from_client;                  /* that W: the request's */
     struct contact_model contact_model;
     struct compliance compliance;
     double *shift; /* [contact], m/N: in series besides, of a shifted model; NULL: none */
@@ -156,5 +155,12 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
 
 /* Velocity along row i due to a unit impulse along row j, 1/kg: the bodies that both share. */
 double problem_inverse_mass(const struct problem *problem, size_t i, size_t j);
+
+/* Where the request's delassus has that of rows i and j. */
+size_t problem_stated_place(const struct problem *problem, size_t i, size_t j);
+
+/* The largest inverse mass in use of a row's contact, of its normal or a tangent, 1/kg: what
+ * differences of inverse masses are measured by, as a mechanism may not move along a tangent. */
+double problem_row_scale(const struct problem *problem, size_t row);
 
 #endif

@@ -64,7 +64,9 @@ struct solve_request {
     size_t body_count, contact_count;
     struct solve_body bodies[PERCUSS_MAX_BODIES];
     struct solve_contact contacts[PERCUSS_MAX_CONTACTS];
-    const double *delassus; /* contact_count^2, row-major; NULL: the service's; borrowed */
+    const double *delassus; /* row-major; NULL: the service's; borrowed */
+    bool delassus_oblique;  /* it has 3 rows a contact: of its normal, its first and its second
+                               tangent, as fast as these stand here; else one, the normal's */
     struct solve_options options;
     double model_shift[SOLVE_SHIFTS]; /* of the models, in standard deviations of their errors
                                          (model_shift.h); 0: as they are */

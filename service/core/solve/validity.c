@@ -413,11 +413,13 @@ static void find_contact(const struct problem *problem, const struct impact_outc
 
 static void find_delassus(const struct problem *problem, struct warnings *warnings)
 {
-    size_t n = problem->contact_count;
+    size_t rows = problem_rows(problem);
     double worst = 0.0;
-    for (size_t i = 0; i < n * n; i++) {
-        double scale = sqrt(problem->w[i / n * (n + 1)] * problem->w[i % n * (n + 1)]);
-        worst = fmax(worst, fabs(problem->w[i] - problem->service_w[i]) / scale);
+    for (size_t i = 0; i < rows * rows; i++) {
+        size_t a = i / rows, b = i % rows;
+        double scale = sqrt(problem_row_scale(problem, a) * problem_row_scale(problem, b));
+        double differs = problem->row_w[i] - problem_inverse_mass(problem, a, b);
+        worst = fmax(worst, fabs(differs) / scale);
     }
     if (worst > OTHER_BODIES)
         warnings_add(warnings, WARNING_DELASSUS,

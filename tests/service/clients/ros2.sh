@@ -60,20 +60,25 @@ wait "$one" || fail "$(cat "$work/one")"
 agree "$work/one" 0.1 0.2
 agree "$work/two" 0.15 0.3
 
-say "friction: the impulse with all components"
-cat >"$work/slide.json" <<JSON
+say "friction: the impulse with all components, of the bodies' own masses and of stated ones"
+for matrix in "" 10,0.5,0,0.5,30,0,0,0,25; do
+    cat >"$work/slide.json" <<JSON
 {"bodies": [{"id": "steel-sphere", "position": [0.515, 0, 0], "velocity": [-0.1, 0.05, 0]}, {"id": "al-rod"}],
- "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0], "friction": 0.2}]}
+ "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0], "friction": 0.2}]
+, "delassus": [$matrix]}
 JSON
-expect 0 percuss query --request "$work/slide.json" --json
-tr -d ' \n' <"$out" | sed 's/.*"impulse_vector":\[\([^]]*\)\].*/\1/; s/,/ /g' >"$work/vector"
-for way in topic service; do
-    expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 1 al-rod 0.2
-    sed -n 's/^vector //p' "$out" | cat - "$work/vector" | awk '
-        NR == 1 { x = $1; y = $2; z = $3 }
-        NR == 2 { exit !(x == $1 && y == $2 && z == $3 && y < -0.1 * x) }' ||
-        fail "$(cat "$out"), not $(cat "$work/vector")"
+    [ -n "$matrix" ] || sed -i 's/^, .*/}/' "$work/slide.json"
+    expect 0 percuss query --request "$work/slide.json" --json
+    tr -d ' \n' <"$out" | sed 's/.*"impulse_vector":\[\([^]]*\)\].*/\1/; s/,/ /g' >"$work/vector$matrix"
+    for way in topic service; do
+        expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 1 al-rod 0.2 "$matrix"
+        sed -n 's/^vector //p' "$out" | cat - "$work/vector$matrix" | awk '
+            NR == 1 { x = $1; y = $2; z = $3 }
+            NR == 2 { exit !(x == $1 && y == $2 && z == $3 && y < -0.1 * x) }' ||
+            fail "$(cat "$out"), not $(cat "$work/vector$matrix")"
+    done
 done
+cmp -s "$work/vector" "$work/vector$matrix" && fail "the stated masses changed nothing"
 
 say "what is wrong is answered, with the reason"
 expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1 nobody
@@ -83,6 +88,10 @@ expect 0 "$peers/ros2_peer" "$domain" service 0.1 1 "$(printf 'x%.0s' $(seq 70))
 shows "0: -1 2 bodies[1].id has 70 bytes, at most 63 are allowed"
 expect 0 "$peers/ros2_peer" "$domain" topic -0.1 1
 shows "0: -1 3 "
+expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1 al-rod 0.2 10,10
+shows "0: -1 2 delassus: 2 numbers, 1, 9 (with both tangents) or none are allowed"
+expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1 al-rod 0.2 10
+shows "0: -1 2 delassus: 1 x 1 numbers: where a contact has friction it must be 3 x 3"
 
 say "questions that are cut or changed: it goes on"
 expect 0 "$peers/ros2_damaged" "$domain" "${PERCUSS_DAMAGED:-3000}"

@@ -23,7 +23,8 @@ struct peer {
     bool service, late;
     uint64_t id;
     unsigned count, answered, strangers;
-    double friction;
+    double friction, delassus[9];
+    uint32_t delassus_count;
     double restitution[MOST], vector[MOST][3];
     char message[MOST][256];
 };
@@ -36,8 +37,10 @@ static void ask(struct peer *peer, unsigned number, double speed, char *body)
         {.id = body, .state = none, .specimen = none}};
     percuss_msgs_msg_dds__Contact_ contact = {
         .a = 0, .b = 1, .point.x = 0.5, .normal.x = 1.0, .friction = peer->friction};
-    percuss_msgs_msg_dds__Question_ question = {.bodies = {._length = 2, ._buffer = bodies},
-                                                .contacts = {._length = 1, ._buffer = &contact}};
+    percuss_msgs_msg_dds__Question_ question = {
+        .bodies = {._length = 2, ._buffer = bodies},
+        .contacts = {._length = 1, ._buffer = &contact},
+        .delassus = {._length = peer->delassus_count, ._buffer = peer->delassus}};
     bodies[0].position.x = 0.515;
     bodies[0].velocity.x = -speed;
     bodies[0].velocity.y = peer->friction > 0.0 ? 0.5 * speed : 0.0;
@@ -153,6 +156,16 @@ static void open_ends(struct peer *peer, uint32_t domain)
     dds_delete_qos(qos);
 }
 
+/* Numbers with commas between them. */
+static void read_delassus(struct peer *peer, const char *text)
+{
+    char *end = (char *)text;
+    while (*end && peer->delassus_count < 9) {
+        peer->delassus[peer->delassus_count++] = strtod(end, &end);
+        end += *end == ',';
+    }
+}
+
 int main(int argc, char **argv)
 {
     static struct peer peer;
@@ -162,6 +175,8 @@ int main(int argc, char **argv)
     peer.late = strcmp(argv[2], "late") == 0;
     peer.count = (unsigned)strtoul(argv[4], NULL, 10);
     peer.friction = argc > 6 ? strtod(argv[6], NULL) : 0.0;
+    if (argc > 7)
+        read_delassus(&peer, argv[7]);
     open_ends(&peer, (uint32_t)strtoul(argv[1], NULL, 10));
     /* one bridge, then all questions, then all answers */
     for (int i = 0; i < MILLISECONDS && !is_matched(&peer); i++)

@@ -93,6 +93,12 @@ static void bad_delassus(struct peer *peer)
     BAD(request.delassus._length, 1, "delassus[0][0]: -10");
     scene.delassus[0] = NAN;
     BAD(request.delassus._length, 1, "delassus[0][0]: nan");
+    /* of three rows a contact the tangents' must be numbers as well */
+    memset(scene.delassus, 0, 9 * sizeof *scene.delassus);
+    scene.delassus[0] = 10.0;
+    scene.delassus[8] = -1.0;
+    BAD(request.delassus._length, 9, "delassus[2][2]: -1: must be finite and >= 0");
+    BAD(request.delassus._length, 36, "delassus: 36 numbers");
 }
 
 /* A batch of none is refused; bad members are refused one by one, the good ones answered. */

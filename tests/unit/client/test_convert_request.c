@@ -112,6 +112,41 @@ static void refuses_what_does_not_fit(void **state)
     refuse("contacts: 65 are too many; up to 64");
 }
 
+/* Rows of a matrix: stated by none, by contacts, by contacts with their tangents. */
+static void converts_rows_of_delassus(void **state)
+{
+    (void)state;
+    static double delassus[PERCUSS_MAX_DELASSUS];
+    fill();
+    request.delassus = delassus;
+    for (size_t contacts = 1; contacts <= PERCUSS_MAX_CONTACTS; contacts++) {
+        request.contact_count = contacts;
+        request.delassus_rows = 0;
+        assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
+        assert_int_equal(wire.delassus._length, contacts * contacts);
+        request.delassus_rows = contacts;
+        assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
+        assert_int_equal(wire.delassus._length, contacts * contacts);
+        request.delassus_rows = 3 * contacts;
+        if (contacts > PERCUSS_MAX_CONTACTS_OBLIQUE)
+            continue;
+        assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
+        assert_int_equal(wire.delassus._length, 9 * contacts * contacts);
+        assert_ptr_equal(wire.delassus._buffer, delassus);
+    }
+    refuse("delassus_rows: 192, 3 for each of 64 contacts: are too many; of normals and tangents "
+           "up to 21 contacts are allowed");
+    request.contact_count = 22;
+    request.delassus_rows = 66;
+    refuse("delassus_rows: 66, 3 for each of 22 contacts");
+    request.delassus_rows = 44;
+    refuse("delassus_rows: 44: 0, 22 (contact_count) or 66 (3 contact_count) is allowed");
+    /* without a matrix they say nothing */
+    request.delassus = NULL;
+    assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
+    assert_int_equal(wire.delassus._length, 0);
+}
+
 static void a_full_request_takes_no_more(void **state)
 {
     (void)state;
@@ -138,6 +173,7 @@ int main(void)
         cmocka_unit_test(converts_bodies_and_contacts),
         cmocka_unit_test(converts_options_and_delassus),
         cmocka_unit_test(refuses_what_does_not_fit),
+        cmocka_unit_test(converts_rows_of_delassus),
         cmocka_unit_test(a_full_request_takes_no_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,14 +129,66 @@ static void reads_delassus_flat_or_in_rows(void **state)
     for (int i = 0; i < 4; i++)
         assert_true(request.request.delassus[i] == i + 1);
     refuse("{\"delassus\": [[1, 2]], \"contacts\": [{}, {}]}",
-           "delassus: 2 rows are needed, one a contact, not 1");
+           "delassus: 2 rows are needed, one a contact, or 6 with both tangents, not 1");
     refuse("{\"delassus\": [[1, 2], [3]], \"contacts\": [{}, {}]}",
            "delassus[1]: 2 numbers are needed, not 1");
     refuse("{\"delassus\": [[1, 2], 3], \"contacts\": [{}, {}]}",
            "delassus[1]: 2 numbers are needed, not a number");
     refuse("{\"delassus\": [1, 2, 3], \"contacts\": [{}, {}]}",
-           "delassus: 4 numbers are needed, not 3");
+           "delassus: 4 numbers are needed, or 36 with both tangents, not 3");
     refuse("{\"delassus\": 1, \"contacts\": [{}]}", "delassus: an array is needed, not a number");
+}
+
+static void reads_delassus_with_tangents(void **state)
+{
+    (void)state;
+    accept("{\"delassus\": [[1, 2, 3], [4, 5, 6], [7, 8, 9]], \"contacts\": [{}]}");
+    assert_int_equal(request.request.delassus_rows, 3);
+    for (int i = 0; i < 9; i++)
+        assert_true(request.request.delassus[i] == i + 1);
+    accept("{\"delassus\": [1, 2, 3, 4, 5, 6, 7, 8, 9], \"contacts\": [{}]}");
+    assert_int_equal(request.request.delassus_rows, 3);
+    for (int i = 0; i < 9; i++)
+        assert_true(request.request.delassus[i] == i + 1);
+    /* as many rows as contacts say nothing of tangents */
+    accept("{\"delassus\": [1, 2, 3, 4, 5, 6, 7, 8, 9], \"contacts\": [{}, {}, {}]}");
+    assert_int_equal(request.request.delassus_rows, 3);
+    refuse("{\"delassus\": [[1, 2, 3], [4, 5, 6], [7, 8]], \"contacts\": [{}]}",
+           "delassus[2]: 3 numbers are needed, not 2");
+}
+
+/* n contacts and a matrix of so many rows of so many numbers. */
+static json_t *request_of(size_t contacts, size_t rows, bool flat)
+{
+    json_t *list = json_array(), *matrix = json_array();
+    for (size_t i = 0; i < contacts; i++)
+        json_array_append_new(list, json_object());
+    for (size_t i = 0; i < rows; i++) {
+        json_t *row = flat ? json_incref(matrix) : json_array();
+        for (size_t j = 0; j < rows; j++)
+            json_array_append_new(row, json_real(1.0));
+        if (flat)
+            json_decref(row);
+        else
+            json_array_append_new(matrix, row);
+    }
+    return json_pack("{soso}", "contacts", list, "delassus", matrix);
+}
+
+static void refuses_more_delassus_than_fits(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < 2; flat++) {
+        struct json_fault reason;
+        json_t *full = request_of(21, 63, flat), *more = request_of(22, 66, flat);
+        assert_true(request_json_read(full, &request, &reason));
+        assert_int_equal(request.request.delassus_rows, 63);
+        assert_false(request_json_read(more, &request, &reason));
+        assert_non_null(strstr(reason.text, "delassus: 66 rows are too many: of normals and "
+                                            "tangents up to 21 contacts are allowed, not 22"));
+        json_decref(full);
+        json_decref(more);
+    }
 }
 
 static void refuses_unknown_members(void **state)
@@ -246,6 +298,8 @@ int main(void)
         cmocka_unit_test(refuses_unknown_overrides),
         cmocka_unit_test(takes_an_empty_request),
         cmocka_unit_test(reads_delassus_flat_or_in_rows),
+        cmocka_unit_test(reads_delassus_with_tangents),
+        cmocka_unit_test(refuses_more_delassus_than_fits),
         cmocka_unit_test(refuses_unknown_members),
         cmocka_unit_test(messages_have_no_control_characters),
         cmocka_unit_test(refuses_wrong_types),

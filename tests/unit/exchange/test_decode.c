@@ -40,6 +40,7 @@ static void converts_a_good_request(void **state)
     assert_int_equal(request.contacts[1].b, 0);
     assert_true(request.contacts[1].gap == 1e-6);
     assert_ptr_equal(request.delassus, sample.delassus);
+    assert_false(request.delassus_oblique);
     assert_true(request.options.tolerance == 1e-6 && request.options.horizon == 0.02);
     assert_int_equal(request.options.contact_model, PERCUSS_CONTACT_HERTZ);
     assert_int_equal(request.options.method, PERCUSS_METHOD_CVODE);
@@ -251,7 +252,8 @@ static void refuses_a_bad_delassus(void **state)
 {
     (void)state;
     REFUSED(wire.delassus._length, 3,
-            "delassus: 3 numbers: must be none or 2 x 2, a row for every contact");
+            "delassus: 3 numbers: must be none, 2 x 2, a row for every contact, or 6 x 6, rows for "
+            "its normal and both tangents");
     REFUSED(delassus[0], 0.0, "delassus[0][0]: 0: must be finite and > 0");
     REFUSED(delassus[3], NAN, "delassus[1][1]: nan: must be finite and > 0");
     REFUSED(delassus[3], INFINITY, "delassus[1][1]: inf: must be finite and > 0");
@@ -268,6 +270,53 @@ static void refuses_a_bad_delassus(void **state)
     sample.delassus[1] = 3e-17;
     sample.delassus[2] = -1e-16;
     assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+}
+
+/* Two contacts with tangents, of which the second one moves along its normal alone. */
+static void fill_oblique(void)
+{
+    sample_fill(&sample);
+    memset(sample.delassus, 0, 36 * sizeof *sample.delassus);
+    for (int i = 0; i < 4; i++)
+        sample.delassus[7 * i] = i == 3 ? 3.0 : 2.0;
+    sample.wire.delassus._length = 36;
+}
+
+static void refuse_oblique(size_t at, double value, const char *message)
+{
+    struct fault fault;
+    fill_oblique();
+    sample.delassus[at] = value;
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_BAD_REQUEST);
+    if (strcmp(fault.text, message) != 0)
+        fail_msg("'%s' is not '%s'", fault.text, message);
+}
+
+static void takes_a_delassus_with_tangents(void **state)
+{
+    (void)state;
+    struct fault fault;
+    fill_oblique();
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    assert_ptr_equal(request.delassus, sample.delassus);
+    assert_true(request.delassus_oblique);
+    /* along a tangent that does not move there is rounding of what moves, 1e-9 of sqrt(2 x 3) */
+    sample.delassus[1 * 6 + 4] = 2e-9;
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    refuse_oblique(1 * 6 + 4, 3e-9,
+                   "delassus[4][1]: 0: must equal [1][4], 3e-09, within "
+                   "2.44949e-09");
+    refuse_oblique(3 * 6 + 3, 0.0, "delassus[3][3]: 0: must be finite and > 0");
+    refuse_oblique(4 * 6 + 4, -1e-9, "delassus[4][4]: -1e-09: must be finite and >= 0");
+    refuse_oblique(5 * 6 + 5, NAN, "delassus[5][5]: nan: must be finite and >= 0");
+    refuse_oblique(5 * 6 + 5, 1.1e12, "delassus[5][5]: 1.1e+12: must be at most 1e+12");
+    refuse_oblique(4 * 6 + 5, NAN, "delassus[5][4]: 0: must be finite, as its mirror image nan");
+    /* a request without a matrix after one with it */
+    fill_oblique();
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    sample.wire.delassus._length = 0;
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    assert_true(!request.delassus && !request.delassus_oblique);
 }
 
 /* Overlong forms, surrogates and what lies beyond Unicode are not UTF-8. */
@@ -310,6 +359,7 @@ int main(void)
         cmocka_unit_test(refuses_bad_contacts),
         cmocka_unit_test(refuses_bad_options),
         cmocka_unit_test(refuses_a_bad_delassus),
+        cmocka_unit_test(takes_a_delassus_with_tangents),
         cmocka_unit_test(tells_utf_8_from_other_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -57,6 +57,7 @@ static void heeds_everything_that_is_asked(void **state)
     MATTERS(contacts[0].gap_acceleration, 1.0);
     MATTERS(delassus[3], 3.0000000000000004);
     MATTERS(wire.delassus._length, 0);
+    MATTERS(wire.delassus._length, 36);
     MATTERS(wire.contacts._length, 1);
     MATTERS(wire.bodies._length, 1);
     MATTERS(wire.options.tolerance, 1e-3);

@@ -179,7 +179,7 @@ static void what_has_no_friction(void **state)
         matrix.delassus = &w;
         elements.options.contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
         if (friction) {
-            refused(lab, &matrix, "delassus: it must be absent");
+            refused(lab, &matrix, "delassus: 1 x 1 numbers: where");
             refused(lab, &elements, "contacts[0].friction: finite elements");
         } else {
             lab_solve(lab, &request, &result);
