@@ -100,6 +100,7 @@ static const double MARGIN = 1e-9; /* s before a sub-impact, for its touch not t
 static void episode_free(struct episode *episode)
 {
     free(episode->delassus);
+    free(episode->oblique);
     free(episode->contacts);
     free(episode->entries);
     free(episode);
@@ -120,6 +121,14 @@ void episodes_free(struct percuss_slow *slow)
         forget(slow, slow->episodes);
 }
 
+static double *copy_numbers(const double *numbers, size_t count)
+{
+    double *copy = malloc(count * sizeof *copy);
+    if (copy)
+        memcpy(copy, numbers, count * sizeof *copy);
+    return copy;
+}
+
 /* Room for a group's contacts, their matrix and the entries of its reply; NULL: no memory. */
 static struct episode *episode_create(const struct group *group)
 {
@@ -129,19 +138,16 @@ static struct episode *episode_create(const struct group *group)
     for (size_t i = 0; group->reply && i < n; i++)
         most += group->reply->contacts[i].sub_impacts_listed;
     struct episode *episode = calloc(1, sizeof *episode);
-    double *delassus = malloc(n * n * sizeof *delassus);
-    if (!episode || !delassus) {
-        free(episode);
-        free(delassus);
+    if (!episode)
         return NULL;
-    }
-    /* the matrix is its own, as it outlives the group */
-    memcpy(delassus, group->delassus, n * n * sizeof *delassus);
-    episode->delassus = delassus;
     episode->request.contact_count = n;
+    /* the matrices are its own, as it outlives the group */
+    episode->delassus = copy_numbers(group->delassus, n * n);
+    episode->oblique = group->oblique ? copy_numbers(group->oblique, 9 * n * n) : NULL;
     episode->contacts = malloc(n * sizeof *episode->contacts);
     episode->entries = malloc(most * sizeof *episode->entries);
-    if (!episode->contacts || !episode->entries) {
+    bool matrices = episode->delassus && (episode->oblique || !group->oblique);
+    if (!matrices || !episode->contacts || !episode->entries) {
         episode_free(episode);
         return NULL;
     }
@@ -183,7 +189,9 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     /* the question is kept, for that of the vibration at another time */
     if (reply) {
         episode->request = *request;
-        episode->request.delassus = request->delassus ? episode->delassus : NULL;
+        episode->request.delassus = !request->delassus       ? NULL
+                                    : request->delassus_rows ? episode->oblique
+                                                             : episode->delassus;
     }
     /* impulses at their times, until when the pairs have no other impact */
     list_make(episode, reply, group->impulse, total);
@@ -194,15 +202,29 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     return PERCUSS_RESULT_OK;
 }
 
+/* A movement along the normal and by a vector along the surface, world, in the directions of a
+ * contact. */
+static void split_moment(const struct percuss_slow_contact *contact, double normal,
+                         const double along[3], double moment[3])
+{
+    double tangent[2][3];
+    percuss_slow_tangents(contact, tangent[0], tangent[1]);
+    moment[0] = normal;
+    for (int t = 0; t < 2; t++)
+        moment[1 + t] =
+            along[0] * tangent[t][0] + along[1] * tangent[t][1] + along[2] * tangent[t][2];
+}
+
 /* Gaps after a movement by an impulse of the episode, of all its pairs that are still near. */
 static void move_gaps(const struct percuss_slow *slow, const struct episode *episode,
-                      size_t contact, double moment)
+                      size_t contact, const double moment[3])
 {
     size_t n = episode->request.contact_count;
     for (size_t i = 0; i < n; i++) {
         struct pair *pair = pairs_find(slow, &episode->contacts[i]);
         if (pair)
-            pair->contact.gap += episode->delassus[i * n + contact] * moment;
+            pair->contact.gap +=
+                slow_gap_change(episode->delassus, episode->oblique, n, i, contact, moment);
     }
 }
 
@@ -266,7 +288,7 @@ static bool change_positions(const struct percuss_slow_config *config,
 /* An impulse as it is applied now: where the bodies touch, and how late it comes, s. */
 struct blow {
     struct percuss_slow_contact place;
-    double impulse, tangential[3], late;
+    double factor, impulse, tangential[3], late;
     bool slides;
 };
 
@@ -278,6 +300,7 @@ static struct blow blow_make(const struct percuss_slow *slow, const struct episo
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     const struct pair *pair = pairs_find(slow, contact);
     struct blow blow = {.place = pair ? pair->contact : *contact,
+                        .factor = factor,
                         .impulse = factor * entry->impulse,
                         .late = now - entry->time};
     place_tangential(episode, entry, &blow.place, blow.tangential);
@@ -306,11 +329,15 @@ static enum percuss_result shift(const struct percuss_slow *slow, const struct e
 {
     if (!slow_moves(slow) || fabs(blow->late) <= SLOW_INSTANT)
         return PERCUSS_RESULT_OK;
-    double moment = blow->impulse * blow->late;
+    double moment = blow->impulse * blow->late, along[3], moved[3];
+    double late = slow->config.move_vector ? blow->factor * blow->late : 0.0;
+    for (int i = 0; i < 3; i++)
+        along[i] = late * entry->tangential[i];
+    split_moment(&episode->contacts[entry->contact], moment, along, moved);
     if (!change_positions(&slow->config, &blow->place, moment, blow->tangential, blow->late,
                           blow->slides))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
-    move_gaps(slow, episode, entry->contact, moment);
+    move_gaps(slow, episode, entry->contact, moved);
     return PERCUSS_RESULT_OK;
 }
 
@@ -420,6 +447,20 @@ static enum percuss_result take_vibration(struct percuss_slow *slow, struct epis
     return result ? question_fail(slow, group, result) : result;
 }
 
+/* Adds an entry's impulse times how long it had been there. */
+static void add_moved(const struct percuss_slow_contact *now,
+                      const struct percuss_slow_contact *then, const struct entry *entry,
+                      double late, double moved[3])
+{
+    /* the same two bodies may be the other way round by now */
+    double along[3], moment[3], sign = now->a == then->a ? late : -late;
+    for (int i = 0; i < 3; i++)
+        along[i] = sign * entry->tangential[i];
+    split_moment(now, entry->impulse * late, along, moment);
+    for (int i = 0; i < 3; i++)
+        moved[i] += moment[i];
+}
+
 /* Takes an impulse back that belongs to a sub-impact after the group's start. */
 static enum percuss_result take_back(const struct percuss_slow *slow, const struct episode *episode,
                                      struct entry *entry, struct group *group, double now)
@@ -427,7 +468,7 @@ static enum percuss_result take_back(const struct percuss_slow *slow, const stru
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     for (size_t i = 0; i < group->count; i++)
         if (pairs_is_same(&group->contacts[i], contact))
-            group->moved[i] += entry->impulse * (now - entry->time);
+            add_moved(&group->contacts[i], contact, entry, now - entry->time, &group->moved[3 * i]);
     entry->taken_back = true;
     return apply(slow, episode, entry, -1.0, now);
 }

@@ -4,6 +4,7 @@
 /* Bodies that no joint holds. */
 #include <math.h>
 #include <percuss/slow_equations.h>
+#include <string.h>
 
 #include "slow.h"
 
@@ -59,15 +60,15 @@ static void respond(const struct percuss_body_motion *body,
     }
 }
 
-/* n.(v + omega x r) of a body at a contact. */
+/* direction.(v + omega x r) of a body at a contact. */
 static double rate_at(const double position[3], const double velocity[3], const double turning[3],
-                      const struct percuss_slow_contact *contact)
+                      const struct percuss_slow_contact *contact, const double direction[3])
 {
     double arm[3], swing[3];
     for (int i = 0; i < 3; i++)
         arm[i] = contact->point[i] - position[i];
     cross(turning, arm, swing);
-    return dot(contact->normal, velocity) + dot(contact->normal, swing);
+    return dot(direction, velocity) + dot(direction, swing);
 }
 
 void percuss_slow_gap_rates(const struct percuss_body_motion *bodies, size_t count,
@@ -78,20 +79,37 @@ void percuss_slow_gap_rates(const struct percuss_body_motion *bodies, size_t cou
     for (size_t i = 0; i < count; i++) {
         const struct percuss_body_motion *a = &bodies[contacts[i].a];
         const struct percuss_body_motion *b = &bodies[contacts[i].b];
-        gap_rate[i] = rate_at(a->position, a->velocity, a->angular_velocity, &contacts[i]) -
-                      rate_at(b->position, b->velocity, b->angular_velocity, &contacts[i]);
+        const double *normal = contacts[i].normal;
+        gap_rate[i] = rate_at(a->position, a->velocity, a->angular_velocity, &contacts[i], normal) -
+                      rate_at(b->position, b->velocity, b->angular_velocity, &contacts[i], normal);
     }
 }
 
-/* Rate of contact `of` per unit impulse at contact `at`, by the motion of one body. */
+/* Rate of contact `of` along one direction per unit impulse at contact `at` along another one, by
+ * the motion of one body. */
 static double coupling(const struct percuss_body_motion *bodies,
                        const struct percuss_slow_inertia *inertias, uint32_t body,
-                       const struct percuss_slow_contact *at, const struct percuss_slow_contact *of)
+                       const struct percuss_slow_contact *at, const double push[3],
+                       const struct percuss_slow_contact *of, const double along[3])
 {
     double velocity[3], turning[3];
-    respond(&bodies[body], &inertias[body], at->point, at->normal, velocity, turning);
-    double rate = rate_at(bodies[body].position, velocity, turning, of);
+    respond(&bodies[body], &inertias[body], at->point, push, velocity, turning);
+    double rate = rate_at(bodies[body].position, velocity, turning, of, along);
     return (at->a == body ? 1.0 : -1.0) * (of->a == body ? rate : -rate);
+}
+
+/* The same by all bodies that both contacts share. */
+static double inverse_mass(const struct percuss_body_motion *bodies,
+                           const struct percuss_slow_inertia *inertias,
+                           const struct percuss_slow_contact *y, const double push[3],
+                           const struct percuss_slow_contact *x, const double along[3])
+{
+    double sum = 0.0;
+    if (x->a == y->a || x->a == y->b)
+        sum += coupling(bodies, inertias, x->a, y, push, x, along);
+    if (x->b == y->a || x->b == y->b)
+        sum += coupling(bodies, inertias, x->b, y, push, x, along);
+    return sum;
 }
 
 void percuss_slow_free_delassus(const struct percuss_body_motion *bodies,
@@ -101,15 +119,70 @@ void percuss_slow_free_delassus(const struct percuss_body_motion *bodies,
     if (count > 0 && SLOW_NULL(bodies, inertias, contacts, delassus))
         return;
     for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j <= i; j++)
+            delassus[i * count + j] = delassus[j * count + i] =
+                inverse_mass(bodies, inertias, &contacts[j], contacts[j].normal, &contacts[i],
+                             contacts[i].normal);
+}
+
+/* As the service's oblique_find_tangent has it; a stated tangent closer to the normal than this
+ * share of its length is none. */
+static const double ALONG_NORMAL = 1e-6;
+
+/* The part of a direction across the unit normal, as a unit vector. False: it is none. */
+static bool lay_across(const double normal[3], const double direction[3], double tangent[3])
+{
+    double length = sqrt(dot(direction, direction));
+    if (!(length > 0.0))
+        return false;
+    double along = dot(normal, direction) / length;
+    for (int i = 0; i < 3; i++)
+        tangent[i] = direction[i] / length - along * normal[i];
+    double left = sqrt(dot(tangent, tangent));
+    if (!(left > ALONG_NORMAL))
+        return false;
+    for (int i = 0; i < 3; i++)
+        tangent[i] /= left;
+    return true;
+}
+
+void percuss_slow_tangents(const struct percuss_slow_contact *contact, double first[3],
+                           double second[3])
+{
+    if (SLOW_NULL(contact, first, second))
+        return;
+    double normal[3], length = sqrt(dot(contact->normal, contact->normal));
+    double axis[3] = {0.0};
+    int least = 0;
+    for (int i = 0; i < 3; i++) {
+        normal[i] = length > 0.0 ? contact->normal[i] / length : 0.0;
+        least = fabs(contact->normal[i]) < fabs(contact->normal[least]) ? i : least;
+    }
+    axis[least] = 1.0;
+    if (!lay_across(normal, contact->tangent, first))
+        lay_across(normal, axis, first);
+    cross(normal, first, second);
+}
+
+void percuss_slow_free_oblique(const struct percuss_body_motion *bodies,
+                               const struct percuss_slow_inertia *inertias, size_t count,
+                               const struct percuss_slow_contact *contacts, double *delassus)
+{
+    size_t rows = 3 * count;
+    if (count > 0 && SLOW_NULL(bodies, inertias, contacts, delassus))
+        return;
+    for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j <= i; j++) {
-            const struct percuss_slow_contact *x = &contacts[i];
-            const struct percuss_slow_contact *y = &contacts[j];
-            double sum = 0.0;
-            if (x->a == y->a || x->a == y->b)
-                sum += coupling(bodies, inertias, x->a, y, x);
-            if (x->b == y->a || x->b == y->b)
-                sum += coupling(bodies, inertias, x->b, y, x);
-            delassus[i * count + j] = delassus[j * count + i] = sum;
+            double x[3][3], y[3][3];
+            memcpy(x[0], contacts[i].normal, sizeof x[0]);
+            memcpy(y[0], contacts[j].normal, sizeof y[0]);
+            percuss_slow_tangents(&contacts[i], x[1], x[2]);
+            percuss_slow_tangents(&contacts[j], y[1], y[2]);
+            for (size_t k = 0; k < 9; k++) {
+                size_t row = 3 * i + k / 3, column = 3 * j + k % 3;
+                delassus[row * rows + column] = delassus[column * rows + row] =
+                    inverse_mass(bodies, inertias, &contacts[j], y[k % 3], &contacts[i], x[k / 3]);
+            }
         }
 }
 

@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 struct group *group_create(const struct percuss_slow *slow, size_t count)
 {
     size_t bodies = slow->config.body_count;
-    size_t numbers = count * count + 4 * count;
+    size_t numbers = count * count + 6 * count;
     struct group *group = calloc(1, sizeof *group + bodies * sizeof *group->bodies +
                                         count * sizeof *group->contacts + numbers * sizeof(double));
     if (!group)
@@ -25,6 +26,23 @@ struct group *group_create(const struct percuss_slow *slow, size_t count)
     group->restitution = group->impulse + count;
     group->moved = group->restitution + count;
     return group;
+}
+
+void group_free(struct group *group)
+{
+    if (group)
+        free(group->oblique);
+    free(group);
+}
+
+/* Rounding must not make a matrix look asymmetric. */
+static void mend_symmetry(size_t rows, double *matrix)
+{
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < i; j++) {
+            double mean = 0.5 * (matrix[i * rows + j] + matrix[j * rows + i]);
+            matrix[i * rows + j] = matrix[j * rows + i] = mean;
+        }
 }
 
 enum percuss_result group_probe(const struct percuss_slow *slow, struct group *group,
@@ -49,12 +67,43 @@ enum percuss_result group_probe(const struct percuss_slow *slow, struct group *g
     };
     if (!slow->config.engine.probe(slow->config.engine.context, &view))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's probe failed");
-    /* rounding must not make the matrix look asymmetric */
-    for (size_t i = 0; everything && i < n; i++)
-        for (size_t j = 0; j < i; j++) {
-            double mean = 0.5 * (group->delassus[i * n + j] + group->delassus[j * n + i]);
-            group->delassus[i * n + j] = group->delassus[j * n + i] = mean;
-        }
+    if (everything)
+        mend_symmetry(n, group->delassus);
+    return PERCUSS_RESULT_OK;
+}
+
+/* Relative difference of a contact's inverse mass along its normal by both of the engine's
+ * callbacks, from which on one of them is wrong. */
+static const double SAME_MATRIX = 1e-6;
+
+enum percuss_result group_probe_oblique(const struct percuss_slow *slow, struct group *group)
+{
+    const struct percuss_slow_engine *engine = &slow->config.engine;
+    size_t n = group->count, rows = 3 * n;
+    struct percuss_slow_contact *contacts = malloc(n * sizeof *contacts);
+    group->oblique = calloc(rows * rows, sizeof *group->oblique);
+    if (!contacts || !group->oblique) {
+        free(contacts);
+        return slow_no_memory();
+    }
+    double second[3];
+    memcpy(contacts, group->contacts, n * sizeof *contacts);
+    for (size_t i = 0; i < n; i++)
+        percuss_slow_tangents(&group->contacts[i], contacts[i].tangent, second);
+    bool good = engine->oblique(engine->context, n, contacts, group->oblique);
+    free(contacts);
+    if (!good)
+        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's oblique failed");
+    mend_symmetry(rows, group->oblique);
+    /* rows in another order, or another matrix than that of the normals */
+    for (size_t i = 0; i < n; i++) {
+        double normal = group->delassus[i * (n + 1)], own = group->oblique[3 * i * (rows + 1)];
+        if (!(fabs(own - normal) <= SAME_MATRIX * fabs(normal)))
+            return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                             "oblique: [%zu][%zu]: %.9g: the engine's probe has %.9g 1/kg for the "
+                             "normal of this contact",
+                             3 * i, 3 * i, own, normal);
+    }
     return PERCUSS_RESULT_OK;
 }
 

@@ -7,13 +7,15 @@
 
 #include "slow.h"
 
-/* Contacts with the engine's data about them; one allocation. */
+/* Contacts with the engine's data about them. */
 struct group {
     size_t count;
     double start; /* s: the instant that is asked about; before now if lists were revoked */
     struct percuss_slow_contact *contacts;
-    double *moved; /* impulses taken back times how long they had been there, N s^2 */
+    double *moved; /* [3 count]: impulses taken back, along each contact's normal and tangents,
+                      times how long they had been there, N s^2 */
     double *gap_rate, *delassus, *impulse, *restitution;
+    double *oblique; /* [3 count x 3 count], of normals and tangents; NULL: not asked for */
     struct percuss_body_motion *bodies; /* [bodies of the configuration] */
     struct percuss_reply answer;
     const struct percuss_reply *reply; /* the answer; NULL: declared */
@@ -22,10 +24,14 @@ struct group {
 };
 
 struct group *group_create(const struct percuss_slow *slow, size_t count); /* NULL: no memory */
+void group_free(struct group *group);                                      /* NULL is allowed */
 
 /* Asks the engine about the group's contacts: rates, and all else if `everything`. */
 enum percuss_result group_probe(const struct percuss_slow *slow, struct group *group,
                                 bool everything);
+
+/* Asks the engine how the group's bodies move along its tangents too. */
+enum percuss_result group_probe_oblique(const struct percuss_slow *slow, struct group *group);
 
 /* Appends to the message of a group. */
 void group_note(struct group *group, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -9,7 +9,8 @@
 #include "pairs.h"
 #include "question.h"
 
-/* With friction the service uses its own inverse masses, which must be the engine's within this. */
+/* With friction of free bodies the service uses its own inverse masses, which must be the engine's
+ * within this. */
 static const double SAME_MASSES = 1e-2;
 static const double LONGEST_HORIZON = 10.0; /* s, that the service allows */
 enum { MOST_LONGER = 2 };                   /* questions with a longer horizon */
@@ -57,6 +58,8 @@ static const char *without_friction(const struct percuss_slow *slow, const struc
         return "options.friction is none";
     if (!engine->push && !engine->apply_vector)
         return "the engine must give apply_vector or push";
+    if (engine->oblique && group->count <= PERCUSS_MAX_CONTACTS_OBLIQUE)
+        return NULL;
     for (size_t i = 0; i < group->count; i++) {
         const uint32_t bodies[2] = {group->contacts[i].a, group->contacts[i].b};
         for (int side = 0; side < 2; side++) {
@@ -64,7 +67,10 @@ static const char *without_friction(const struct percuss_slow *slow, const struc
             any = any || one->free;
             *body = one->id;
             if (!one->free && !one->fixed)
-                return " is not stated to be free";
+                return engine->oblique ? " is not stated to be free, and the engine's oblique is "
+                                         "for fewer contacts"
+                                       : " is not stated to be free, and the engine gives no "
+                                         "oblique";
         }
     }
     return any ? NULL : " is fixed, and so is the other one";
@@ -88,6 +94,13 @@ static bool rubs(const struct percuss_slow *slow, struct group *group, bool *all
             break;
         }
     return false;
+}
+
+bool question_is_oblique(const struct percuss_slow *slow, const struct group *group)
+{
+    const char *body;
+    return slow->config.service.solve && slow->config.engine.oblique &&
+           group->count <= PERCUSS_MAX_CONTACTS_OBLIQUE && !without_friction(slow, group, &body);
 }
 
 bool question_has_these_masses(const struct percuss_slow *slow, struct group *group,
@@ -123,8 +136,9 @@ bool question_make(const struct percuss_slow *slow, struct group *group, double 
     request->body_count = 0;
     request->contact_count = group->count;
     request->options = slow->config.options;
-    /* friction and the engine's matrix exclude each other */
-    request->delassus = slides ? NULL : group->delassus;
+    /* the engine's matrix; with friction one of the tangents too, or the catalogue's */
+    request->delassus = slides ? group->oblique : group->delassus;
+    request->delassus_rows = slides && group->oblique ? 3 * group->count : 0;
     if (!slides)
         request->options.friction = PERCUSS_FRICTION_NONE;
     for (size_t i = 0; i < group->count; i++) {
@@ -134,8 +148,11 @@ bool question_make(const struct percuss_slow *slow, struct group *group, double 
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
         if (slides) {
+            double second[3];
             to->friction = from->friction;
             memcpy(to->tangent, from->tangent, sizeof to->tangent);
+            if (group->oblique)
+                percuss_slow_tangents(from, to->tangent, second);
         }
         to->gap = from->gap;
         /* the pressing force balances bodies that lie together */

@@ -12,6 +12,9 @@
 bool question_make(const struct percuss_slow *slow, struct group *group, double now,
                    struct percuss_request *request);
 
+/* Whether the question has the engine's matrix of normals and tangents (group_probe_oblique). */
+bool question_is_oblique(const struct percuss_slow *slow, const struct group *group);
+
 /* Whether the reply to a question without a matrix is about bodies as heavy as the engine's; else
  * the difference is in group->why. */
 bool question_has_these_masses(const struct percuss_slow *slow, struct group *group,

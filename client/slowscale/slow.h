@@ -49,7 +49,7 @@ struct episode {
     bool rubs;                      /* has friction */
     bool revoked;                   /* until its successor is known */
     struct percuss_request request; /* delassus is its own or NULL, as it was asked */
-    double *delassus;               /* the engine's */
+    double *delassus, *oblique;     /* the engine's, as of a group */
     struct percuss_slow_contact *contacts;
     size_t entry_count, played;
     struct entry *entries; /* by time */
@@ -78,6 +78,17 @@ struct percuss_slow {
 static inline bool slow_moves(const struct percuss_slow *slow)
 {
     return slow->config.move || slow->config.move_vector;
+}
+
+/* Change of the gap of contact i by a movement of M^-1 w moment at contact j, along its normal and
+ * tangents, by the engine's matrices; without `oblique` (NULL) by the part along the normal. */
+static inline double slow_gap_change(const double *delassus, const double *oblique, size_t count,
+                                     size_t i, size_t j, const double moment[3])
+{
+    const double *w = oblique + 9 * count * i + 3 * j;
+    if (!oblique)
+        return delassus[i * count + j] * moment[0];
+    return w[0] * moment[0] + w[1] * moment[1] + w[2] * moment[2];
 }
 
 /* s: an engine's clock rarely ends on the very bit asked for */

@@ -110,7 +110,8 @@ static void go_back(const struct percuss_slow *slow, struct group *group, double
     for (size_t i = 0; i < group->count; i++) {
         struct percuss_slow_contact *contact = &group->contacts[i];
         for (size_t j = 0; j < group->count; j++)
-            contact->gap -= group->delassus[i * group->count + j] * group->moved[j];
+            contact->gap -= slow_gap_change(group->delassus, group->oblique, group->count, i, j,
+                                            &group->moved[3 * j]);
         if (slow_moves(slow)) /* where the bodies are by now */
             pairs_find(slow, contact)->contact.gap = contact->gap;
         contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
@@ -301,6 +302,8 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
     enum percuss_result result = preempt(slow, group, now);
     if (!result)
         result = group_probe(slow, group, true);
+    if (!result && question_is_oblique(slow, group))
+        result = group_probe_oblique(slow, group);
     if (!result) {
         go_back(slow, group, now);
         result = find_impulses(slow, group, request);
@@ -338,9 +341,9 @@ static enum percuss_result impact_solve(struct percuss_slow *slow, const struct 
     }
     if (!result)
         result = begin(slow, group, request, now);
-    free(group);
+    group_free(group);
     free(request);
-    free(all);
+    group_free(all);
     return result;
 }
 
@@ -463,7 +466,7 @@ static struct group *look(const struct percuss_slow *slow, size_t count,
     *result = group_probe(slow, group, false);
     if (!*result)
         return group;
-    free(group);
+    group_free(group);
     return NULL;
 }
 
@@ -488,7 +491,7 @@ bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
     struct group *group = touches ? look(slow, count, contacts, &result) : NULL;
     double now = slow->config.engine.now(slow->config.engine.context);
     bool due = group && first_due(slow, group, now) < count;
-    free(group);
+    group_free(group);
     return due;
 }
 
@@ -549,6 +552,6 @@ enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count
         pairs_settle(slow, now);
         slow->time = now;
     }
-    free(group);
+    group_free(group);
     return result;
 }

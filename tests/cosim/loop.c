@@ -60,7 +60,8 @@ void loop_ask(struct loop *loop, const struct percuss_request *request)
     static struct solve_request question;
     question = (struct solve_request){.body_count = request->body_count,
                                       .contact_count = request->contact_count,
-                                      .delassus = request->delassus};
+                                      .delassus = request->delassus,
+                                      .delassus_oblique = request->delassus_rows > 0};
     for (size_t i = 0; i < request->body_count; i++) {
         const struct percuss_body_motion *from = &request->bodies[i];
         struct solve_body *to = &question.bodies[i];
@@ -78,10 +79,13 @@ void loop_ask(struct loop *loop, const struct percuss_request *request)
         *to = (struct solve_contact){.a = from->a,
                                      .b = from->b,
                                      .gap = from->gap,
-                                     .gap_acceleration = from->gap_acceleration};
+                                     .gap_acceleration = from->gap_acceleration,
+                                     .friction = from->friction};
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
+        memcpy(to->tangent, from->tangent, sizeof to->tangent);
     }
+    question.options.friction = request->options.friction;
     question.options.tolerance = request->options.tolerance;
     question.options.horizon = request->options.horizon;
     question.options.trace = request->options.trace;
@@ -90,12 +94,14 @@ void loop_ask(struct loop *loop, const struct percuss_request *request)
 
 struct percuss_sub_impact loop_sub_impact(const struct solve_contact_result *from, size_t i)
 {
-    return (struct percuss_sub_impact){.start = from->sub_impacts[i].start,
-                                       .compression_end = from->sub_impacts[i].compression_end,
-                                       .end = from->sub_impacts[i].end,
-                                       .compression_impulse =
-                                           from->sub_impacts[i].compression_impulse,
-                                       .impulse = from->sub_impacts[i].impulse};
+    const struct sub_impact *one = &from->sub_impacts[i];
+    return (struct percuss_sub_impact){
+        .start = one->start,
+        .compression_end = one->compression_end,
+        .end = one->end,
+        .compression_impulse = one->compression_impulse,
+        .impulse = one->impulse,
+        .impulse_tangential = {one->impulse_tangential[0], one->impulse_tangential[1]}};
 }
 
 static enum percuss_result loop_solve(void *context, const struct percuss_request *request,
@@ -123,6 +129,9 @@ static enum percuss_result loop_solve(void *context, const struct percuss_reques
         to->impulse = from->impulse;
         to->restitution = from->restitution;
         to->end_time = from->end_time;
+        to->friction = from->friction;
+        memcpy(to->tangent, from->tangent, sizeof to->tangent);
+        memcpy(to->impulse_tangential, from->impulse_tangential, sizeof to->impulse_tangential);
         to->sub_impact_count = (uint32_t)from->sub_impact_count;
         to->sub_impacts_listed = (uint32_t)from->sub_impacts_listed;
         to->sub_impacts = subs[i];
@@ -183,6 +192,11 @@ void loop_pair(struct loop *loop, uint32_t a, uint32_t b, double z, double gap)
                                       .gap = gap};
 }
 
+struct percuss_slow_service loop_service(struct loop *loop)
+{
+    return (struct percuss_slow_service){loop, loop_solve, loop_release, NULL};
+}
+
 void loop_start_moving(struct loop *loop, enum percuss_slow_application application,
                        double tolerance, bool moves)
 {
@@ -195,7 +209,7 @@ void loop_start_moving(struct loop *loop, enum percuss_slow_application applicat
     config.bodies = bodies;
     config.engine = (struct percuss_slow_engine){
         .context = loop, .probe = loop_probe, .apply = loop_apply, .now = loop_now};
-    config.service = (struct percuss_slow_service){loop, loop_solve, loop_release, NULL};
+    config.service = loop_service(loop);
     config.options.tolerance = tolerance;
     config.application = application;
     config.report = loop_report;

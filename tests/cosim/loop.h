@@ -44,6 +44,9 @@ uint32_t loop_add(struct loop *loop, const char *id, double x, double z, double 
 /* A pair that may touch above b at a's x and height z. */
 void loop_pair(struct loop *loop, uint32_t a, uint32_t b, double z, double gap);
 
+/* The solver, of loop->lab, for another engine. */
+struct percuss_slow_service loop_service(struct loop *loop);
+
 void loop_start_moving(struct loop *loop, enum percuss_slow_application application,
                        double tolerance, bool moves);
 void loop_start(struct loop *loop, enum percuss_slow_application application, double tolerance);

@@ -121,6 +121,31 @@ static bool probe(void *context, struct percuss_slow_view *view)
     return true;
 }
 
+/* By friction the bodies move along the tangents as well, as the joints let them. */
+static bool oblique(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                    double *delassus)
+{
+    struct engine *engine = context;
+    int nv = engine->model->nv;
+    size_t rows = 3 * count;
+    double w[3 * ENGINE_CONTACTS][nv], u[nv];
+    if (count > ENGINE_CONTACTS)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        double second[3];
+        mju_cross(second, contacts[i].normal, contacts[i].tangent);
+        direction(engine, &contacts[i], contacts[i].normal, w[3 * i]);
+        direction(engine, &contacts[i], contacts[i].tangent, w[3 * i + 1]);
+        direction(engine, &contacts[i], second, w[3 * i + 2]);
+    }
+    for (size_t i = 0; i < rows; i++) {
+        respond(engine, w[i], u);
+        for (size_t j = 0; j < rows; j++)
+            delassus[i * rows + j] = mju_dot(w[j], u, nv);
+    }
+    return true;
+}
+
 /* M^-1 w of a direction, with its constraints. */
 static void respond_to(const struct engine *engine, const struct percuss_slow_contact *contact,
                        const double along[3], double *u)
@@ -130,28 +155,30 @@ static void respond_to(const struct engine *engine, const struct percuss_slow_co
     respond(engine, w, u);
 }
 
-static bool apply(void *context, const struct percuss_slow_contact *contact, double impulse)
+/* `impulse` times a direction changes the velocities. */
+static bool push(struct engine *engine, const struct percuss_slow_contact *contact,
+                 const double along[3], double impulse)
 {
-    struct engine *engine = context;
     int nv = engine->model->nv;
     double u[nv];
-    respond_to(engine, contact, contact->normal, u);
+    engine->taken += engine_kinetic_energy(engine);
+    respond_to(engine, contact, along, u);
     mju_addToScl(engine->data->qvel, u, impulse, nv);
-    engine->applied[contact->a][contact->b] += impulse;
+    engine->taken -= engine_kinetic_energy(engine);
+    engine->applied[contact->a][contact->b] += impulse * mju_dot3(contact->normal, along);
     return true;
+}
+
+static bool apply(void *context, const struct percuss_slow_contact *contact, double impulse)
+{
+    return push(context, contact, contact->normal, impulse);
 }
 
 /* By friction: M^-1 (w_n P_n + w_t P_t), which is the response to the impulse's own direction. */
 static bool apply_vector(void *context, const struct percuss_slow_contact *contact,
                          const double impulse[3])
 {
-    struct engine *engine = context;
-    int nv = engine->model->nv;
-    double u[nv];
-    respond_to(engine, contact, impulse, u);
-    mju_addTo(engine->data->qvel, u, nv);
-    engine->applied[contact->a][contact->b] += mju_dot3(contact->normal, impulse);
-    return true;
+    return push(context, contact, impulse, 1.0);
 }
 
 static bool move(void *context, const struct percuss_slow_contact *contact, double moment)
@@ -184,19 +211,10 @@ void engine_configure(struct engine *engine, struct percuss_slow_config *config)
                                                   .probe = probe,
                                                   .apply = apply,
                                                   .now = now,
-                                                  .apply_vector = apply_vector};
+                                                  .apply_vector = apply_vector,
+                                                  .oblique = oblique};
     config->move = move;
     config->move_vector = move_vector;
-}
-
-bool engine_is_free(const struct engine *engine, size_t body)
-{
-    const mjModel *model = engine->model;
-    int number = engine->bodies[body], joint = model->body_jntadr[number];
-    bool is_free = joint >= 0 && model->jnt_type[joint] == mjJNT_FREE && model->neq == 0;
-    for (int i = 0; i < model->nbody; i++)
-        is_free = is_free && model->body_parentid[i] != number;
-    return is_free;
 }
 
 /* --- contacts and steps --- */

@@ -27,6 +27,8 @@ struct engine {
     size_t constraint_count; /* equality constraints as directions M^-1 j, orthonormal in M */
     double *constraints;     /* [constraint_count x nv] */
     double friction;         /* coefficient of all contacts; 0: the catalogue's, if any */
+    double
+        taken; /* J, that the impulses took from all bodies, with MuJoCo's own masses and joints */
     double applied[ENGINE_BODIES][ENGINE_BODIES]; /* N s, by the contact's a and b */
 };
 
@@ -34,10 +36,6 @@ struct engine {
 bool engine_open(struct engine *engine, const char *file, size_t body_count,
                  const struct engine_body *bodies);
 void engine_close(struct engine *engine);
-
-/* Whether no joint and no equality constraint holds the body, and nothing hangs on it: friction is
- * for such bodies. */
-bool engine_is_free(const struct engine *engine, size_t body);
 
 /* Enters the callbacks, with the engine as their context. */
 void engine_configure(struct engine *engine, struct percuss_slow_config *config);

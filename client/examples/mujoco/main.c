@@ -159,8 +159,7 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     if (!open_scene(choice, scene, &engine))
         return false;
     for (size_t i = 0; i < scene->body_count; i++)
-        bodies[i] = (struct percuss_slow_body){
-            .id = scene->bodies[i].id, .free = scene->friction > 0.0 && engine_is_free(&engine, i)};
+        bodies[i] = (struct percuss_slow_body){.id = scene->bodies[i].id};
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = scene->body_count;
     config.bodies = bodies;
@@ -186,6 +185,7 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     records_finish(records);
     if (slow) {
         struct percuss_slow_counts counts = percuss_slow_counts(slow);
+        printf("  the impulses took %.12g J from MuJoCo's bodies\n", engine.taken);
         printf("  %llu impacts, %llu requests (%llu repeated, %llu preempted), %llu declared\n",
                (unsigned long long)counts.impacts, (unsigned long long)counts.requests,
                (unsigned long long)counts.repeated, (unsigned long long)counts.preempted,

@@ -53,7 +53,7 @@ done
 
 "$program" --domain "$domain" --scenes "$here/scenes" --output "$output"
 if command -v gnuplot >/dev/null; then
-    for motion in "$output"/*-bar*.csv; do
+    for motion in "$output"/*-*.csv; do
         scene=$(basename "$motion" .csv)
         gnuplot -e "folder='$output'; scene='$scene'" "$here/plot.gp"
     done

@@ -37,6 +37,13 @@ const struct scene scenes[] = {
      .slide = 0.1,
      .spin = 20.0,
      .friction = 0.3},
+    /* the ball on a double pendulum meets the wall at 50 degrees from its normal */
+    {.name = "double-pendulum-wall",
+     .body_count = 2,
+     .bodies = {{"sph", "sphere", false}, {"world", "wall", false}},
+     .speed = 2.0,
+     .duration = 0.02,
+     .friction = 0.1},
 };
 const size_t scene_count = sizeof scenes / sizeof *scenes;
 

@@ -35,6 +35,13 @@ struct percuss_slow_engine {
      */
     bool (*apply_vector)(void *context, const struct percuss_slow_contact *contact,
                          const double impulse[3]);
+    /* For friction of bodies that joints hold, with apply_vector or push: fills w^T M^-1 w of all
+     * directions of up to PERCUSS_MAX_CONTACTS_OBLIQUE contacts, `delassus` [3 count x 3 count],
+     * row-major, 1/kg. Row 3i is the normal of contacts[i], 3i + 1 its `tangent` (stated here,
+     * unit), 3i + 2 normal x tangent; each is the row for which w.qdot is the velocity of a's point
+     * against b's along it. NULL: such bodies have no friction. */
+    bool (*oblique)(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                    double *delassus);
 };
 
 /* The service: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: none, every

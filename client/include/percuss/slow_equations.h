@@ -88,6 +88,19 @@ PERCUSS_API void percuss_slow_free_delassus(const struct percuss_body_motion *bo
                                             const struct percuss_slow_contact *contacts,
                                             double *delassus);
 
+/* The tangents of a contact as a service takes them, world, unit: the stated one made normal to the
+ * normal, or where that is zero or along it the world axis least parallel to it (x before y before
+ * z); and normal x first. */
+PERCUSS_API void percuss_slow_tangents(const struct percuss_slow_contact *contact, double first[3],
+                                       double second[3]);
+
+/* The same with both tangents [3 count x 3 count], in the order of `oblique` (slow_engine.h). */
+PERCUSS_API void percuss_slow_free_oblique(const struct percuss_body_motion *bodies,
+                                           const struct percuss_slow_inertia *inertias,
+                                           size_t count,
+                                           const struct percuss_slow_contact *contacts,
+                                           double *delassus);
+
 /* Eq. (3): gives free bodies the velocities after `impulse` at the contact, + on a and - on b. */
 PERCUSS_API void percuss_slow_free_apply(struct percuss_body_motion *bodies,
                                          const struct percuss_slow_inertia *inertias,

@@ -39,15 +39,16 @@ struct percuss_slow_report {
 struct percuss_slow_body {
     const char *id; /* in the service's catalogue */
     bool fixed;     /* holds still in any impact: does not couple the impacts on it */
-    bool free;      /* no joint holds it, and its inertia is the catalogue's: allows friction, see
-                       below */
+    bool free; /* no joint holds it, and its inertia is the catalogue's: allows friction without
+                  `oblique`, see below */
 };
 
-/* Friction: the whole impulse vector of the answer acts at the contact's point. The service takes
- * no inverse mass matrix of the engine together with friction. So an impact has friction where all
- * of its bodies are `free` or `fixed`, the engine gives `apply_vector` or `push`, and
- * options.friction is not `none`; the question then has no matrix. Other impacts are asked about
- * with the matrix and with options.friction `none`; a contact of theirs that states a coefficient
+/* Friction: the whole impulse vector of the answer acts at the contact's point. An impact has
+ * friction where the engine gives `apply_vector` or `push`, options.friction is not `none`, and
+ * the service can know how the bodies move along the surface: by the engine's `oblique`, of up to
+ * PERCUSS_MAX_CONTACTS_OBLIQUE contacts; or else by the catalogue, where all of the bodies are
+ * `free` or `fixed`: the question then has no matrix. Other impacts are asked about with the matrix
+ * of their normals and with options.friction `none`; a contact of theirs that states a coefficient
  * is refused by name, unless options.friction is `none`. The declared restitution has no friction.
  */
 

@@ -18,7 +18,7 @@ import numpy as np
 
 import percuss
 from percuss.request import FloatArray
-from percuss.slowscale import Body, Contact, Report, SlowScale
+from percuss.slowscale import Contact, Report, SlowScale
 from percuss.world import World, run
 
 # contype 0, conaffinity 0: the bodies pass through each other as far as MuJoCo is concerned
@@ -48,7 +48,7 @@ class Pair:
     sphere_id: str = "steel-sphere"
     other_id: str = "al-beam"
     friction: float = 0.0
-    """Coefficient; above 0 both must be bodies that no joint holds, as heavy as the catalogue's."""
+    """Coefficient; 0: the catalogue's, if any."""
 
 
 class Simulation(World):
@@ -62,18 +62,6 @@ class Simulation(World):
         self.geoms, self.ids = list(ids), list(ids.values())
         """A body of the slow scale is an index into these."""
         mujoco.mj_forward(self.model, self.data)
-
-    def bodies(self) -> list[Body]:
-        """For the slow scale; with friction only impacts of free bodies can be asked about."""
-        rub = {name for pair in self.pairs if pair.friction > 0.0 for name in (pair.sphere, pair.other)}
-        return [Body(id, free=name in rub and self._is_free(name)) for name, id in zip(self.geoms, self.ids)]
-
-    def _is_free(self, geom: str) -> bool:
-        """Whether a free joint is all that the body has, and nothing hangs on it."""
-        body = self.model.geom(geom).bodyid[0]
-        joint = self.model.body_jntadr[body]
-        free = joint >= 0 and self.model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
-        return bool(free and not self.model.neq and body not in self.model.body_parentid[body + 1 :])
 
     # time
 
@@ -171,6 +159,16 @@ class Simulation(World):
         symmetric: FloatArray = 0.5 * (matrix + matrix.T)
         return symmetric
 
+    def oblique(self, contacts: Sequence[Contact]) -> FloatArray:
+        """The same with both tangents of each contact, along which friction pushes."""
+        w = np.zeros((3 * len(contacts), self.model.nv))
+        for i, contact in enumerate(contacts):
+            directions = contact.normal, contact.tangent, np.cross(contact.normal, contact.tangent)
+            w[3 * i : 3 * i + 3] = np.array(directions) @ self.relative(contact)
+        matrix = w @ self.inverse_mass_times(w).T
+        symmetric: FloatArray = 0.5 * (matrix + matrix.T)
+        return symmetric
+
     def apply_vector(self, contact: Contact, impulse: FloatArray) -> None:
         """M^-1 (w_n P_n + w_t P_t): the impulse by all three rows of the Jacobian."""
         self.data.qvel += self.inverse_mass_times((impulse @ self.relative(contact))[np.newaxis])[0]
@@ -200,7 +198,7 @@ def simulate(client: percuss.Client, simulation: Simulation, end: float, toleran
     """The impacts up to `end`, s, with e to the tolerance."""
     reports: list[Report] = []
     options = percuss.Options(tolerance=tolerance)
-    with SlowScale(simulation.bodies(), simulation, client, options=options, report=reports.append) as slow:
+    with SlowScale(simulation.ids, simulation, client, options=options, report=reports.append) as slow:
         run(simulation, slow, end, 1e-3)
     return reports
 

@@ -46,6 +46,7 @@ Probe = CFUNCTYPE(c_bool, c_void_p, POINTER(View))
 Apply = CFUNCTYPE(c_bool, c_void_p, POINTER(Contact), c_double)
 ApplyVector = CFUNCTYPE(c_bool, c_void_p, POINTER(Contact), POINTER(c_double))
 Now = CFUNCTYPE(c_double, c_void_p)
+Oblique = CFUNCTYPE(c_bool, c_void_p, c_size_t, POINTER(Contact), POINTER(c_double))
 Push = CFUNCTYPE(c_bool, c_void_p, c_uint32, POINTER(c_double), POINTER(c_double))
 
 
@@ -57,6 +58,7 @@ class Engine(ctypes.Structure):
         ("now", Now),
         ("push", Push),
         ("apply_vector", ApplyVector),
+        ("oblique", Oblique),
     ]
 
 
@@ -140,6 +142,8 @@ _Bodies, _Inertias = POINTER(BodyMotion), POINTER(Inertia)
 FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("gap_rates", None, [_Bodies, c_size_t, POINTER(Contact), _Doubles]),
     ("free_delassus", None, [_Bodies, _Inertias, c_size_t, POINTER(Contact), _Doubles]),
+    ("free_oblique", None, [_Bodies, _Inertias, c_size_t, POINTER(Contact), _Doubles]),
+    ("tangents", None, [POINTER(Contact), _Doubles, _Doubles]),
     ("free_apply", None, [_Bodies, _Inertias, POINTER(Contact), c_double]),
     ("free_move", None, [_Bodies, _Inertias, POINTER(Contact), c_double]),
     ("free_apply_vector", None, [_Bodies, _Inertias, POINTER(Contact), _Doubles]),

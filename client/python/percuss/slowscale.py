@@ -51,13 +51,13 @@ class _Feature(request.ContactPlace):
 @dataclass
 class Contact(request.Contact, _Feature):  # in this order `feature` is the seventh argument
     """Two bodies that touch, or nearly; a and b are indices of the engine's bodies. The normal points from b to a.
-    friction and tangent: as of a request, where both bodies are `free` or `fixed`."""
+    friction and tangent: as of a request, where the engine has `oblique`, or all bodies are `free` or `fixed`."""
 
 
 class Engine:
     """What the slow scale must know and do. To be derived from: `now`, `gap_rates`, `delassus`, `motion`, one of
-    `apply` and `push`, and better with `move`; for friction with `apply_vector` and `move_vector` or `push`. All at the
-    present state."""
+    `apply` and `push`, and better with `move`; for friction with `oblique`, and `apply_vector` and `move_vector` or
+    `push`. All at the present state."""
 
     def now(self) -> float:
         """Time of the simulation, s."""
@@ -70,6 +70,12 @@ class Engine:
     def delassus(self, contacts: Sequence[Contact]) -> ArrayLike:
         """w^T M^-1 w, contacts x contacts, 1/kg: what a unit impulse at each changes the rate of each by."""
         raise NotImplementedError("delassus")
+
+    def oblique(self, contacts: Sequence[Contact]) -> ArrayLike:
+        """Optional, for friction of bodies that joints hold: w^T M^-1 w of normals and tangents, 3n x 3n for up to 21
+        contacts, 1/kg. Row 3i is the normal of contacts[i], 3i + 1 its `tangent` (stated here, unit), 3i + 2 normal x
+        tangent."""
+        raise NotImplementedError("oblique")
 
     def motion(self, body: int) -> BodyMotion:
         """Pose and velocities of a body, in the frame of the catalogue; its id and token are not read."""
@@ -107,8 +113,8 @@ class Body:
     fixed: bool = False
     """Holds still whatever hits it: does not couple the impacts on it."""
     free: bool = False
-    """No joint holds it, and its inertia is the catalogue's. An impact has friction where all of its bodies are free or
-    fixed; the service then takes the catalogue's inverse masses, and compares."""
+    """No joint holds it, and its inertia is the catalogue's. Without `oblique` of the engine an impact has friction
+    where all of its bodies are free or fixed; the service then takes the catalogue's inverse masses, and compares."""
 
 
 @dataclass(frozen=True)
@@ -223,6 +229,10 @@ class _Callbacks:
                 for name in ("position", "orientation", "velocity", "angular_velocity"):
                     setattr(view.bodies[index], name, tuple(getattr(motion, name).tolist()))
 
+    def _oblique(self, count: int, source: Any, target: Any) -> None:
+        contacts = [_read_contact(one) for one in source[:count]]
+        _write_array("oblique", self._engine.oblique(contacts), target, 3 * count, 3 * count)
+
     def _push(self, body: int, impulse: Any, point: Any) -> None:
         self._engine.push(body, _array(impulse, 3), _array(point, 3))
 
@@ -251,6 +261,8 @@ class _Callbacks:
         # who pushes each body needs none of the pair
         if has("apply_vector") and not has("push"):
             config.engine.apply_vector = vector(engine.apply_vector)
+        if has("oblique"):
+            config.engine.oblique = abi.Oblique(lambda _, *view: call(lambda: self._oblique(*view)))
         if has("push"):
             config.engine.push = abi.Push(lambda _, *push: call(lambda: self._push(*push)))
         if has("move"):

@@ -114,6 +114,12 @@ class FreeBodies(World):
         _library.percuss_slow_free_delassus(self._bodies, self._inertias, n, _write_contacts(contacts), matrix)
         return np.array(matrix).reshape(n, n)
 
+    def oblique(self, contacts: Sequence[Contact]) -> FloatArray:
+        n = len(contacts)
+        matrix = (ctypes.c_double * (9 * n * n))()
+        _library.percuss_slow_free_oblique(self._bodies, self._inertias, n, _write_contacts(contacts), matrix)
+        return np.array(matrix).reshape(3 * n, 3 * n)
+
     def apply(self, contact: Contact, impulse: float) -> None:
         _library.percuss_slow_free_apply(self._bodies, self._inertias, _write_contacts([contact]), impulse)
 

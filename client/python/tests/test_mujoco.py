@@ -13,7 +13,7 @@ from unittest import mock
 import numpy as np
 
 import percuss
-from percuss.slowscale import Report, SlowScale
+from percuss.slowscale import Application, Contact, Report, SlowScale
 from percuss.world import run
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "examples"))
@@ -187,11 +187,45 @@ class Mujoco(unittest.TestCase):
         self.assertEqual([float(row[0]) for row in rows], [-60.0, -30.0, 0.0, 30.0, 60.0])
         self.assertEqual({row[6] for row in rows}, {"slid", "reversed"})
 
-    def test_friction_needs_free_bodies(self) -> None:
-        simulation = hinged_bar()
-        simulation.pairs = [Pair("sphere", "bar", friction=0.3)]
-        with self.assertRaisesRegex(percuss.InvalidArgument, "friction: 0.3: .* is not stated to be free"):
-            simulate(self.client, simulation, 1.0)
+    def test_friction_of_a_hinged_bar(self) -> None:
+        """A free ball that slides along the hinged bar as it hits: MuJoCo's matrix of normal and tangents is that of
+        the hinge in closed form, and so are the velocities after the impulse."""
+        mu, mass, moment = 0.1, 0.110976, 9.98784e-6
+        hinge = 0.0000424 + 0.84823 * 0.5**2
+        simulation = Simulation(
+            HINGED_BAR.replace("0 0 -9.81", "0 0 0").replace(
+                'pos="-0.025 0 0"><joint type="hinge" axis="0 1 0" pos="0 0 0.5"/>', 'pos="-0.0252 0 -0.001"><freejoint/>'
+            ),
+            [Pair("sphere", "bar", friction=mu)],
+        )
+        simulation.data.qvel[[1, 3]] = 0.2, 1.0
+        mujoco.mj_forward(simulation.model, simulation.data)
+        # directions -x, y, -z; the bar's point turns about the hinge, 0.5 m above and 0.01 m beside it
+        matrix = np.diag([1 / mass, *2 * [1 / mass + 0.015**2 / moment]])
+        turning = np.array([0.5, 0.0, -0.01])
+        matrix += np.outer(turning, turning) / hinge
+        touch = Contact(0, 1, (-0.01, 0.0, 0.0), (-1.0, 0.0, 0.0), tangent=(0.0, 1.0, 0.0))
+        simulation.data.qpos[[1, 3]] = -0.025, 0.0
+        mujoco.mj_forward(simulation.model, simulation.data)
+        np.testing.assert_allclose(simulation.oblique([touch]), matrix, rtol=1e-9, atol=1e-9)
+        simulation.data.qpos[[1, 3]] = -0.0252, -0.001
+        mujoco.mj_forward(simulation.model, simulation.data)
+        reports = list[Report]()
+        total = Application.TOTAL
+        with SlowScale(simulation.ids, simulation, self.client, application=total, report=reports.append) as slow:
+            run(simulation, slow, 0.002, 1e-3)
+        (report,) = reports
+        assert report.reply
+        (contact,) = report.reply.contacts
+        self.assertEqual(report.reply.delassus_source, percuss.DelassusSource.CLIENT)
+        self.assertAlmostEqual(report.delassus.item(), matrix[0, 0], delta=1e-6)
+        # 1 um of its way along the bar's roundness turns the normal by some 0.05 mrad
+        expected = contact.impulse * np.array([-1.0, 0.0, -mu])
+        np.testing.assert_allclose(contact.impulse_vector, expected, atol=1e-4 * contact.impulse)
+        self.assertEqual(contact.friction_state.name, "SLID")
+        speeds = simulation.data.qvel
+        np.testing.assert_allclose(speeds[1:4], np.array([0.2, 0.0, 1.0]) + contact.impulse_vector / mass, atol=1e-9)
+        self.assertAlmostEqual(speeds[0] * hinge / contact.impulse, -0.5 + 0.01 * mu, delta=1e-4)
 
 
 if __name__ == "__main__":

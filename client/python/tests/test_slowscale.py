@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """percuss.slowscale and percuss.world: callbacks, latches, lists and totals, groups, tokens; the examples on them."""
 
+import itertools
 import math
 import os
 import sys
@@ -101,6 +102,12 @@ class Rubbing(Spheres):
             total += inertia.mass * np.cross(arm, motion.velocity)
             total += r @ (np.array(inertia.moments) * (r.T @ motion.angular_velocity))
         return total
+
+
+class Catalogued(Rubbing):
+    """The same, which leaves the inverse masses along the surface to the catalogue."""
+
+    oblique = Engine.oblique  # type: ignore[assignment]
 
 
 class Sliding(Spheres):
@@ -254,18 +261,21 @@ class Asking(unittest.TestCase):
 
     def test_friction_acts_with_all_components(self) -> None:
         """A ball that slides throughout: spin = mu P_n R / I; both momenta are kept, and the energy is that of the
-        service's books."""
-        for application in Application:
-            world, mu = Rubbing(self.client, 1.0, 0.1), 0.1
+        service's books; by the world's own matrix of normals and tangents, and by the catalogue's."""
+        for application, kind in itertools.product(Application, (Rubbing, Catalogued)):
+            world, mu = kind(self.client, 1.0, 0.1), 0.1
             reports: list[Report] = []
-            bodies = [Body("al-beam", free=True), Body("steel-sphere", free=True)]
+            own = kind is Rubbing
+            bodies = [Body("al-beam", free=not own), Body("steel-sphere", free=not own)]
             with SlowScale(bodies, world, self.client, application=application, report=reports.append) as slow:
                 energy = world.energy()
                 run(world, slow, 0.05, 1e-3)
             (report,) = reports
             assert report.reply
             answer, books = report.reply.contacts[0], report.reply.energy
-            self.assertEqual(report.reply.delassus_source, percuss.DelassusSource.SERVICE)
+            source = percuss.DelassusSource.CLIENT if own else percuss.DelassusSource.SERVICE
+            self.assertEqual(report.reply.delassus_source, source)
+            self.assertFalse(any("delassus" in warning for warning in report.reply.warnings), report.reply.warnings)
             self.assertEqual((answer.friction, answer.friction_state.name, report.message), (mu, "SLID", ""))
             self.assertAlmostEqual(answer.impulse_tangential[0] / answer.impulse, -mu, delta=1e-5)
             # the lever is the radius but for the overlap while a list is played
@@ -304,9 +314,10 @@ class Asking(unittest.TestCase):
         np.testing.assert_allclose(momentum, came, atol=1e-15)
 
     def test_friction_of_a_body_that_joints_hold(self) -> None:
-        """A coefficient that would be dropped is refused by name; options.friction none drops it."""
+        """Without a matrix of tangents a coefficient that would be dropped is refused by name; options.friction none
+        drops it."""
         bodies = [Body("al-beam"), Body("steel-sphere", free=True)]
-        world = Rubbing(self.client, 1.0, 0.1)
+        world: Rubbing = Catalogued(self.client, 1.0, 0.1)
         with SlowScale(bodies, world, self.client) as slow:
             with self.assertRaisesRegex(percuss.InvalidArgument, "friction: 0.1: al-beam is not stated to be free"):
                 run(world, slow, 0.05, 1e-3)
@@ -316,6 +327,41 @@ class Asking(unittest.TestCase):
             run(world, slow, 0.05, 1e-3)
         self.assertEqual(world.motion(1).velocity[1], 1.0)
         self.assertGreater(world.motion(1).velocity[2], -0.1)
+
+    def test_tangents(self) -> None:
+        """The engine's `oblique` is asked along unit tangents of the surface, in which the reply is."""
+        asked: list[Contact] = []
+
+        class Asked(Rubbing):
+            def contacts(self) -> list[Contact]:
+                found = super().contacts()
+                for contact in found:
+                    contact.tangent = np.array([1.0, 2.0, 5.0])
+                return found
+
+            def oblique(self, contacts: Sequence[Contact]) -> FloatArray:
+                asked.extend(contacts)
+                return super().oblique(contacts)
+
+        world, reports = Asked(self.client, 1.0, 0.1), list[Report]()
+        with SlowScale(["al-beam", "steel-sphere"], world, self.client, report=reports.append) as slow:
+            run(world, slow, 0.05, 1e-3)
+        (report,), (contact,) = reports, asked
+        assert report.reply
+        np.testing.assert_allclose(contact.tangent, np.array([1.0, 2.0, 0.0]) / np.sqrt(5.0), atol=2e-3)
+        self.assertAlmostEqual(float(contact.tangent @ contact.normal), 0.0, delta=1e-15)
+        np.testing.assert_allclose(report.reply.contacts[0].tangent, contact.tangent, atol=1e-15)
+        # a matrix in another order is found out
+        world = Asked(self.client, 1.0, 0.1)
+        matrix = world.oblique(world.contacts())
+        setattr(Asked, "oblique", lambda self, contacts: matrix[::-1, ::-1])
+        with SlowScale(["al-beam", "steel-sphere"], world, self.client) as slow:
+            with self.assertRaisesRegex(percuss.InvalidArgument, r"oblique: \[0\]\[0\]: .*: the engine's probe has"):
+                run(world, slow, 0.05, 1e-3)
+        setattr(Asked, "oblique", lambda self, contacts: matrix[1:, 1:])
+        with SlowScale(["al-beam", "steel-sphere"], Asked(self.client, 1.0, 0.1), self.client) as slow:
+            with self.assertRaisesRegex(ValueError, r"oblique: shape \(2, 2\): \(3, 3\) is needed"):
+                run(slow._callbacks._engine, slow, 0.05, 1e-3)  # type: ignore[arg-type]
 
     def test_a_group(self) -> None:
         """Two spheres at one instant are one question, and neither has its e alone."""

@@ -42,6 +42,10 @@ awk 'function near(a, b) { return a - b < 1e-6 && b - a < 1e-6 }
       exit !(near($1, m + M + 0.09 / I) && near($2, M + 0.135 / I) && near($3, $2) &&
              near($4, m + M + 0.2025 / I)) }' "$work/matrix" || fail "$(cat "$work/matrix")"
 
+# a double pendulum at 50 degrees, W_nn by its two angles' M in closed form; it meets the wall some 0.06 mrad further
+double_pendulum=5.542690952
+close_to 1e-3 "$(scene double-pendulum-wall | cut -d , -f 12)" "$double_pendulum"
+
 say "percussd answers: one request an impact"
 printf 'catalogue: %s\n' "$example/catalogue.yaml" >"$work/percussd.yaml"
 start_daemon
@@ -51,18 +55,29 @@ for how in "" total; do
         --tolerance 1e-6 ${how:+"--$how"}
     cat "$out"
     awk '/requests/ { if ($1 != $3 || $5 != "(0" || $9 != 0) exit 1; found++ }
-        END { exit found != 5 }' "$out" || fail "not one request an impact"
+        END { exit found != 6 }' "$out" || fail "not one request an impact"
     # the applied impulse is the reply's, and e of it by the engine's own matrix is the reply's
     awk -F , 'function far(a, b, d) { return a - b > d || b - a > d }
         NR > 1 && ($11 != "percuss" || far($6, $7, 1e-15) || far($8, $9, 1e-9)) { exit 1 }' \
         "$work/impacts.csv" || fail "$(cat "$work/impacts.csv")"
     cp "$work/impacts.csv" "$work/impacts-${how:-list}.csv"
     cp "$work/pendulum-free-bar.csv" "$work/free-${how:-list}.csv"
-    # friction: MuJoCo's bodies lose what the service's books say; in a list, the ball slides on meanwhile
-    lost=$(sed -n 's/.*slid; the rigid bodies lose \([^ ]*\) J.*/\1/p' "$out")
-    sed -n '1p;$p' "$work/spinning-sphere-free-bar.csv" | cut -d , -f 2 | tr '\n' ' ' >"$work/energies"
-    awk -v lost="$lost" -v allowed="${how:+1e-10}" '{ d = $1 - $2 - lost; a = allowed == "" ? 1e-6 : allowed
-        exit !(lost > 1e-3 && d <= a && -d <= a) }' "$work/energies" || fail "$lost J, not $(cat "$work/energies")"
+    # friction, of free bodies and of a double pendulum: MuJoCo's own masses and joints lose what the service's books
+    # say. Free bodies at once to the digits that are printed; in a list the ball slides on meanwhile. The pendulum's
+    # joints accelerate the gap by some 1 m/s^2, which does work in the books for 0.15 ms at 0.109 N s: 8e-6 J of 2e-3
+    for scene in "spinning-sphere-free-bar:${how:+1e-11}" double-pendulum-wall:1e-5; do
+        sed -n "/^${scene%:*}/,/requests/p" "$out" >"$work/printed"
+        lost=$(sed -n 's/.*the rigid bodies lose \([^ ]*\) J.*/\1/p' "$work/printed")
+        taken=$(sed -n 's/.*the impulses took \([^ ]*\) J.*/\1/p' "$work/printed")
+        [ "${lost%.*}" = 0 ] || fail "no friction: $(cat "$work/printed")"
+        allowed=${scene#*:}
+        close_to "${allowed:-1e-6}" "$taken" "$lost"
+    done
+    # the pendulum's rate after by both impulses and its W in closed form: Hertz gives it back but for waves in the wall
+    along=$(sed -n 's/.*tangential impulse \([^ ]*\) N s.*/\1/p' "$work/printed")
+    scene double-pendulum-wall | awk -F , -v along="$along" -v w="$double_pendulum" -v across=3.448776236 '{
+        e = (w * $6 + across * along) / -$5 - 1; exit !(along > 0.099 * $6 && e > 0.99 && e < 1) }' ||
+        fail "e of the double pendulum: $(cat "$work/printed")"
 done
 
 say "lists and totals: the same answer, and velocities within 1e-3 of the approach afterwards"

@@ -212,16 +212,18 @@ static void friction_spins_the_bodies(void **state)
 }
 
 /* A third body hits in the midst of a list with friction: what is asked about the vibration then
- * has no matrix either, the tangential impulse that was applied is taken back, and both are in the
- * new answer. */
+ * has the first question's matrix, or none either, the tangential impulse that was applied is taken
+ * back, and both are in the new answer. */
 static void friction_is_revoked_with_its_list(void **state)
 {
     (void)state;
     static const struct percuss_slow_body bodies[] = {
         {.id = "s0", .free = true}, {.id = "s1", .free = true}, {.id = "s2", .free = true}};
-    for (int later = 0; later < 2; later++) {
+    for (int way = 0; way < 4; way++) {
+        bool later = way & 1, joints = way & 2;
         struct percuss_slow_config wishes = toy_wishes();
-        wishes.bodies = bodies;
+        wishes.bodies = joints ? NULL : bodies;
+        wishes.engine.oblique = joints ? toy_oblique : NULL;
         wishes.engine.push = toy_push;
         struct toy *toy = toy_create(3, &wishes);
         /* in the midst of the first hit, with its impulse applied; or between both */
@@ -246,7 +248,13 @@ static void friction_is_revoked_with_its_list(void **state)
         toy_run(toy, 2e-2, 1e-5);
         assert_int_equal(toy->asked, toy->answers);
         for (size_t i = 0; i < toy->asked; i++) {
-            assert_null(toy->question[i].delassus);
+            assert_true((toy->question[i].delassus != NULL) == joints);
+            assert_int_equal(toy->question[i].delassus_rows,
+                             joints ? 3 * toy->question[i].contact_count : 0);
+            if (joints)
+                near(toy->matrix[i][0], 20.0, 1e-12);
+            if (joints && toy->question[i].contact_count == 1)
+                near(toy->matrix[i][4], 70.0, 1e-10);
             assert_int_equal(toy->question[i].options.friction, PERCUSS_FRICTION_MICRO_SLIP);
         }
         double dragged = later ? 0.002 + 0.005 : 0.005;
@@ -286,6 +294,139 @@ static void friction_turns_with_the_surface(void **state)
     toy_free(toy);
 }
 
+/* An engine of three coordinates with M = 1/20: a force along direction d at contact i pushes them
+ * along d_x row[i][0] + d_y row[i][1] + d_z row[i][2]; the first row is that of the gap. */
+struct abstract {
+    double time, q[3], rate[3], row[2][3][3], gap[2];
+    size_t asked;
+    double gaps[2]; /* of the last question */
+    struct percuss_sub_impact sub;
+    struct percuss_contact_result result[2];
+};
+
+static double along(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool abstract_oblique(void *context, size_t count,
+                             const struct percuss_slow_contact *contacts, double *delassus)
+{
+    const struct abstract *engine = context;
+    size_t rows = 3 * count;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < rows; j++)
+            delassus[i * rows + j] = 20.0 * along(engine->row[contacts[i / 3].feature][i % 3],
+                                                  engine->row[contacts[j / 3].feature][j % 3]);
+    return true;
+}
+
+static bool abstract_probe(void *context, struct percuss_slow_view *view)
+{
+    const struct abstract *engine = context;
+    for (size_t i = 0; i < view->count; i++) {
+        const double *of = engine->row[view->contacts[i].feature][0];
+        view->gap_rate[i] = along(of, engine->rate);
+        for (size_t j = 0; view->delassus && j < view->count; j++)
+            view->delassus[i * view->count + j] =
+                20.0 * along(of, engine->row[view->contacts[j].feature][0]);
+    }
+    return true;
+}
+
+static bool abstract_apply(void *context, const struct percuss_slow_contact *contact,
+                           const double impulse[3])
+{
+    struct abstract *engine = context;
+    for (int d = 0; d < 3; d++)
+        for (int k = 0; k < 3; k++)
+            engine->rate[k] += 20.0 * impulse[d] * engine->row[contact->feature][d][k];
+    return true;
+}
+
+static double abstract_now(void *context)
+{
+    return ((struct abstract *)context)->time;
+}
+
+static enum percuss_result abstract_solve(void *context, const struct percuss_request *request,
+                                          struct percuss_reply *reply)
+{
+    struct abstract *engine = context;
+    engine->asked++;
+    reply->complete = true;
+    reply->window = 1e-3;
+    reply->contacts = engine->result;
+    reply->contact_count = request->contact_count;
+    for (size_t i = 0; i < request->contact_count; i++) {
+        engine->gaps[i] = request->contacts[i].gap;
+        engine->result[i] = (struct percuss_contact_result){.impulse = engine->sub.impulse,
+                                                            .end_time = engine->sub.end,
+                                                            .friction = 0.3,
+                                                            .tangent = {0.0, 1.0, 0.0},
+                                                            .sub_impact_count = 1,
+                                                            .sub_impacts_listed = 1,
+                                                            .sub_impacts = &engine->sub};
+        memcpy(engine->result[i].impulse_tangential, engine->sub.impulse_tangential,
+               sizeof engine->result[i].impulse_tangential);
+    }
+    return PERCUSS_RESULT_OK;
+}
+
+static void abstract_release(struct percuss_reply *reply)
+{
+    *reply = (struct percuss_reply){0};
+}
+
+/* Friction changes the gaps' rates where joints couple the directions: an impulse that is taken
+ * back takes with it what its tangential part has done to the gaps, so that the new question has
+ * those of its own instant. */
+static void friction_that_is_taken_back_leaves_no_gap(void **state)
+{
+    (void)state;
+    static const struct percuss_slow_body bodies[] = {{.id = "a"}, {.id = "b"}, {.id = "c"}};
+    static struct abstract engine = {.rate = {-0.2, 0.0, -0.1},
+                                     .row = {{{1.0, 0.0, 0.0}, {0.6, 0.8, 0.0}, {0.1, -0.3, 0.2}},
+                                             {{-0.5, 0.4, 0.9}, {0.3, 0.2, -0.7}, {0.2, 0.9, 0.1}}},
+                                     .gap = {0.0, 30e-6},
+                                     .sub = {.compression_end = 1e-4,
+                                             .end = 4e-4,
+                                             .impulse = 0.03,
+                                             .compression_impulse = 0.015,
+                                             .impulse_tangential = {0.01, -0.02}}};
+    struct percuss_slow_config config = percuss_slow_config_default();
+    struct percuss_slow *slow;
+    config.body_count = 3;
+    config.bodies = bodies;
+    config.engine = (struct percuss_slow_engine){.context = &engine,
+                                                 .probe = abstract_probe,
+                                                 .now = abstract_now,
+                                                 .apply_vector = abstract_apply,
+                                                 .oblique = abstract_oblique};
+    config.service = (struct percuss_slow_service){&engine, abstract_solve, abstract_release, NULL};
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_OK);
+    for (int i = 0; i < 1000 && engine.asked < 2; i++) {
+        struct percuss_slow_contact contacts[2] = {{.a = 1, .b = 0}, {.a = 2, .b = 1}};
+        for (uint32_t c = 0; c < 2; c++) {
+            contacts[c].feature = c;
+            contacts[c].normal[0] = contacts[c].tangent[1] = 1.0;
+            contacts[c].gap = engine.gap[c] + along(engine.row[c][0], engine.q);
+        }
+        if (percuss_slow_advance(slow, 2, contacts))
+            fail_msg("%s", percuss_slow_error_text());
+        /* to the impulse's instant, and on until the second contact closes while it is under way */
+        double dt = fmin(1e-6, percuss_slow_next(slow) - engine.time);
+        engine.time += dt;
+        for (int k = 0; k < 3; k++)
+            engine.q[k] += dt * engine.rate[k];
+    }
+    assert_int_equal(engine.asked, 2);
+    assert_true(engine.time > 2e-4 && engine.time < 4e-4);
+    near(engine.gaps[0], 0.0, 1e-15);
+    near(engine.gaps[1], 30e-6, 1e-15);
+    percuss_slow_free(slow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,6 +437,7 @@ int main(void)
         cmocka_unit_test(friction_spins_the_bodies),
         cmocka_unit_test(friction_is_revoked_with_its_list),
         cmocka_unit_test(friction_turns_with_the_surface),
+        cmocka_unit_test(friction_that_is_taken_back_leaves_no_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -319,6 +319,82 @@ static void an_impulse_of_any_direction_keeps_the_books(void **state)
     }
 }
 
+/* Two contacts of three bodies, of which one is in both: the matrix has in each column the changes
+ * of the velocities along all directions by a unit impulse along one. */
+static void a_matrix_of_tangents_is_that_of_impulses(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    const struct percuss_slow_inertia inertias[3] = {
+        {0.111, {1e-2, 2e-2, 1.5e-2}}, {0.848, {4e-2, 0.07, 0.06}}, {INFINITY, {0.0}}};
+    for (int trial = 0; trial < 50; trial++) {
+        struct percuss_body_motion bodies[3] = {{.id = "a"}, {.id = "b"}, {.id = "c"}};
+        struct percuss_slow_contact contacts[2] = {{.a = 0, .b = 1}, {.a = 2, .b = 1}};
+        double direction[6][3], w[36], normals[4];
+        for (int k = 0; k < 12; k++) {
+            bodies[k % 3].orientation[k / 3] = uniform(&seed);
+            bodies[k % 3].position[k / 4] = uniform(&seed);
+        }
+        for (int c = 0; c < 2; c++) {
+            double length = 0.0;
+            for (int k = 0; k < 3; k++) {
+                contacts[c].point[k] = uniform(&seed);
+                contacts[c].normal[k] = uniform(&seed);
+                contacts[c].tangent[k] = trial % 2 ? uniform(&seed) : 0.0;
+                length += contacts[c].normal[k] * contacts[c].normal[k];
+            }
+            for (int k = 0; k < 3; k++)
+                direction[3 * c][k] = contacts[c].normal[k] /= sqrt(length);
+            percuss_slow_tangents(&contacts[c], direction[3 * c + 1], direction[3 * c + 2]);
+        }
+        percuss_slow_free_oblique(bodies, inertias, 2, contacts, w);
+        percuss_slow_free_delassus(bodies, inertias, 2, contacts, normals);
+        for (int j = 0; j < 6; j++) {
+            struct percuss_body_motion pushed[3];
+            memcpy(pushed, bodies, sizeof pushed);
+            percuss_slow_free_apply_vector(pushed, inertias, &contacts[j / 3], direction[j]);
+            for (int i = 0; i < 6; i++) {
+                struct percuss_slow_contact along = contacts[i / 3];
+                double rate;
+                memcpy(along.normal, direction[i], sizeof along.normal);
+                percuss_slow_gap_rates(pushed, 1, &along, &rate);
+                near(w[6 * i + j], rate, 1e-12 * sqrt(w[7 * i] * w[7 * j]));
+            }
+        }
+        for (int i = 0; i < 4; i++)
+            near(w[i / 2 * 18 + i % 2 * 3], normals[i], 1e-12 * normals[0]);
+    }
+}
+
+/* A right-handed frame; the stated tangent laid into the surface, or the first world axis of those
+ * least along the normal. */
+static void tangents_are_those_of_a_request(void **state)
+{
+    (void)state;
+    static const struct {
+        double normal[3], tangent[3], first[3], second[3];
+    } cases[] = {
+        {{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+        {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        {{0, -1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}},
+        {{0.6, 0, 0.8}, {0, 0, 0}, {0, 1, 0}, {-0.8, 0, 0.6}},
+        {{0, 0, 1}, {3, -4, 7}, {0.6, -0.8, 0}, {0.8, 0.6, 0}},
+        /* along the normal: as if none were stated */
+        {{0, 0, 1}, {0, 0, -5}, {1, 0, 0}, {0, 1, 0}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct percuss_slow_contact contact = {0};
+        double first[3], second[3];
+        memcpy(contact.normal, cases[i].normal, sizeof contact.normal);
+        memcpy(contact.tangent, cases[i].tangent, sizeof contact.tangent);
+        percuss_slow_tangents(&contact, first, second);
+        for (int k = 0; k < 3; k++) {
+            near(first[k], cases[i].first[k], 1e-15);
+            near(second[k], cases[i].second[k], 1e-15);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -330,6 +406,8 @@ int main(void)
         cmocka_unit_test(free_bodies_keep_their_momentum),
         cmocka_unit_test(a_sliding_sphere_gets_spin),
         cmocka_unit_test(an_impulse_of_any_direction_keeps_the_books),
+        cmocka_unit_test(a_matrix_of_tangents_is_that_of_impulses),
+        cmocka_unit_test(tangents_are_those_of_a_request),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

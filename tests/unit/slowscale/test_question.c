@@ -246,6 +246,101 @@ static void free_bodies_are_asked_about_with_friction(void **state)
     }
 }
 
+/* With the engine's matrix of normals and tangents no body need be free: the question has that
+ * matrix, in the order of its contacts, and states the tangents. */
+static void bodies_in_joints_are_asked_about_with_friction(void **state)
+{
+    (void)state;
+    for (int way = 0; way < 3; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.engine.apply_vector = toy_apply_vector;
+        wishes.engine.oblique = toy_oblique;
+        wishes.options.friction = way == 2 ? PERCUSS_FRICTION_NONE : PERCUSS_FRICTION_MICRO_SLIP;
+        struct toy *toy = toy_create(3, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy->answer[0].count[1] = 1;
+        toy->friction = way == 1 ? 0.0 : 0.3;
+        toy->tangent[0] = way == 1 ? 0.0 : 3.0;
+        toy->tangent[2] = way == 1 ? 0.0 : -2.0;
+        toy_step(toy, 0.0);
+        const struct percuss_request *question = &toy->question[0];
+        const double *w = toy->matrix[0];
+        assert_int_equal(question->contact_count, 2);
+        assert_int_equal(question->options.friction, wishes.options.friction);
+        if (way == 2) {
+            assert_int_equal(question->delassus_rows, 0);
+            near(w[1], -10.0, 1e-12);
+            toy_free(toy);
+            continue;
+        }
+        /* 1/m + 1/m along the normals; 1/m + r^2/I twice along the tangents; the sphere between
+         * both contacts carries an impulse on, less what it turns it by */
+        assert_int_equal(question->delassus_rows, 6);
+        for (int i = 0; i < 2; i++) {
+            near(question->contacts[i].friction, toy->friction, 0.0);
+            /* along the surface: of x = normal the part is gone; else the first axis across it */
+            near(question->contacts[i].tangent[way == 1 ? 1 : 2], way == 1 ? 1.0 : -1.0, 1e-15);
+            for (int k = 0; k < 3; k++) {
+                near(w[(3 * i + k) * 7], k == 0 ? 20.0 : 70.0, 1e-10);
+                near(w[k * 6 + 3 + k], k == 0 ? -10.0 : 15.0, 1e-10);
+                near(w[(3 + k) * 6 + k], k == 0 ? -10.0 : 15.0, 1e-10);
+            }
+            near(w[3 * i * 6 + 3 * i + 1], 0.0, 1e-12);
+        }
+        toy_free(toy);
+    }
+}
+
+static bool reverse_rows(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                         double *delassus)
+{
+    double w[9];
+    toy_oblique(context, count, contacts, w);
+    for (int i = 0; i < 9; i++)
+        delassus[i] = w[8 - i];
+    return true;
+}
+
+static bool fail_oblique(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                         double *delassus)
+{
+    (void)context, (void)count, (void)contacts, (void)delassus;
+    return false;
+}
+
+/* Rows in another order and a failure end the call; contacts beyond what a matrix holds have no
+ * friction. */
+static void a_bad_matrix_of_tangents_is_found_out(void **state)
+{
+    (void)state;
+    static struct percuss_slow_contact many[22];
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.engine.apply_vector = toy_apply_vector;
+    for (int way = 0; way < 3; way++) {
+        wishes.engine.oblique = way == 0 ? reverse_rows : way == 1 ? fail_oblique : toy_oblique;
+        struct toy *toy = toy_create(2, &wishes);
+        const char *text =
+            way == 0   ? "oblique: [0][0]: 70: the engine's probe has 20 1/kg for the normal"
+            : way == 1 ? "the engine's oblique failed"
+                       : "friction: 0.3: s1 is not stated to be free, and the engine's oblique is "
+                         "for fewer contacts";
+        toy->friction = 0.3;
+        toy_contacts(toy, many);
+        for (uint32_t i = 1; way == 2 && i < 22; i++) {
+            many[i] = many[0];
+            many[i].feature = i;
+        }
+        assert_int_equal(percuss_slow_advance(toy->slow, way == 2 ? 22 : 1, many),
+                         PERCUSS_RESULT_INVALID_ARGUMENT);
+        if (!strstr(percuss_slow_error_text(), text))
+            fail_msg("%s", percuss_slow_error_text());
+        assert_int_equal(toy->asked, 0);
+        near(toy->bodies[0].velocity[0], 0.2, 0.0);
+        toy_free(toy);
+    }
+}
+
 /* A coefficient that would be dropped is refused, and so are bodies of other masses; nothing has
  * happened then. */
 static void friction_that_cannot_be_is_refused_by_name(void **state)
@@ -260,8 +355,8 @@ static void friction_that_cannot_be_is_refused_by_name(void **state)
         {{{.id = "s0", .free = true}, {.id = "s1"}},
          false,
          0.0,
-         "contact of s1 and s0: friction: 0.3: s1 is not stated to be free: 0, or options.friction "
-         "none, is allowed"},
+         "contact of s1 and s0: friction: 0.3: s1 is not stated to be free, and the engine "
+         "gives no oblique: 0, or options.friction none, is allowed"},
         {{{.id = "s0", .fixed = true}, {.id = "s1", .fixed = true}},
          false,
          0.0,
@@ -302,6 +397,8 @@ int main(void)
         cmocka_unit_test(a_list_that_could_not_be_replaced_goes_on),
         cmocka_unit_test(a_cut_off_window_is_not_final),
         cmocka_unit_test(free_bodies_are_asked_about_with_friction),
+        cmocka_unit_test(bodies_in_joints_are_asked_about_with_friction),
+        cmocka_unit_test(a_bad_matrix_of_tangents_is_found_out),
         cmocka_unit_test(friction_that_cannot_be_is_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

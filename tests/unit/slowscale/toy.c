@@ -85,6 +85,14 @@ bool toy_probe(void *context, struct percuss_slow_view *view)
     return true;
 }
 
+bool toy_oblique(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                 double *delassus)
+{
+    struct toy *toy = context;
+    percuss_slow_free_oblique(toy->bodies, toy->inertias, count, contacts, delassus);
+    return true;
+}
+
 bool toy_apply(void *context, const struct percuss_slow_contact *contact, double impulse)
 {
     struct toy *toy = context;
@@ -189,9 +197,9 @@ static enum percuss_result toy_solve(void *context, const struct percuss_request
     if (number >= toy->answers)
         fail_msg("question %zu was not expected", number);
     toy->question[number] = *request;
+    size_t rows = request->delassus_rows ? request->delassus_rows : request->contact_count;
     if (request->delassus)
-        memcpy(toy->matrix[number], request->delassus,
-               request->contact_count * request->contact_count * sizeof(double));
+        memcpy(toy->matrix[number], request->delassus, rows * rows * sizeof(double));
     const struct toy_answer *answer = &toy->answer[number];
     reply->status = answer->truncated ? PERCUSS_TRUNCATED : answer->status;
     if (!answer->result && !answer->status)
@@ -235,7 +243,8 @@ struct toy *toy_create(size_t count, const struct percuss_slow_config *wishes)
                                                  .apply = wish->push ? NULL : toy_apply,
                                                  .now = toy_now,
                                                  .push = wish->push,
-                                                 .apply_vector = wish->apply_vector};
+                                                 .apply_vector = wish->apply_vector,
+                                                 .oblique = wish->oblique};
     config.report = toy_report;
     config.report_context = toy;
     if (config.service.solve)

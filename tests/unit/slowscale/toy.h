@@ -55,7 +55,7 @@ struct toy {
     size_t asked, answers;
     struct toy_answer answer[TOY_REPLIES];
     struct percuss_request question[TOY_REPLIES];
-    double matrix[TOY_REPLIES][TOY_BODIES * TOY_BODIES];
+    double matrix[TOY_REPLIES][9 * TOY_BODIES * TOY_BODIES];
     size_t released;
     /* the last report */
     size_t reports;
@@ -67,6 +67,8 @@ struct toy {
 
 size_t toy_contacts(struct toy *toy, struct percuss_slow_contact *contacts);
 bool toy_probe(void *context, struct percuss_slow_view *view);
+bool toy_oblique(void *context, size_t count, const struct percuss_slow_contact *contacts,
+                 double *delassus);
 bool toy_apply(void *context, const struct percuss_slow_contact *contact, double impulse);
 bool toy_push(void *context, uint32_t body, const double impulse[3], const double point[3]);
 bool toy_apply_vector(void *context, const struct percuss_slow_contact *contact,
