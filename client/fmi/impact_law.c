@@ -21,6 +21,8 @@ struct impact_law {
     double touch;
     double friction;
     double angular_a[3], angular_b[3]; /* N m s, of the last impact, about the centres of mass */
+    double tangent[3];
+    double tangential_mass[2], coupling[3]; /* 1/kg */
     /* not a variable: until the bodies have separated there is no other impact */
     int32_t waits;
 };
@@ -76,6 +78,21 @@ static const struct variable VARIABLES[] = {
     LAW_RESULT("angular_impulse_b", angular_b, "N.m.s", "the same on B"),
     {"friction_loss",
      LAW(DISCRETE, FLOAT64, shared.last.friction_loss, "J", 0.0, "by sliding in the last impact")},
+    LAW_VECTOR("tangent", tangent, NULL,
+               "first one of the contact, world; zero: the axis least parallel to the normal; the "
+               "second is normal x first"),
+    LAW_INPUT("inverse_mass_tangential[1]", tangential_mass[0], "1/kg", 0.0,
+              "of the contact along the first tangent, beside inverse_effective_mass: friction of "
+              "bodies in joints; both 0: no friction (by_poses)"),
+    LAW_INPUT("inverse_mass_tangential[2]", tangential_mass[1], "1/kg", 0.0,
+              "along the second one (by_poses)"),
+    LAW_INPUT(
+        "inverse_mass_coupling[1]", coupling[0], "1/kg", 0.0,
+        "of the normal and the first tangent: velocity along one by an impulse of 1 N.s along "
+        "the other (by_poses)"),
+    LAW_INPUT("inverse_mass_coupling[2]", coupling[1], "1/kg", 0.0,
+              "of the normal and the second tangent (by_poses)"),
+    LAW_INPUT("inverse_mass_coupling[3]", coupling[2], "1/kg", 0.0, "of both tangents (by_poses)"),
 };
 
 /* m; so far from zero an importer's root of the indicator may be */
@@ -135,8 +152,29 @@ static fmi3Status request_by_poses(struct fmu *fmu, struct percuss_request *requ
     memcpy(contact->point, law->point, sizeof contact->point);
     memcpy(contact->normal, law->normal, sizeof contact->normal);
     request->options.tolerance = law->shared.tolerance;
+    memcpy(contact->tangent, law->tangent, sizeof contact->tangent);
     contact->friction = law->friction;
     return fmi3OK;
+}
+
+/* Whether the simulator states its inverse masses along the surface. */
+static bool states_tangents(const struct impact_law *law)
+{
+    return law->by_poses && (law->tangential_mass[0] != 0.0 || law->tangential_mass[1] != 0.0);
+}
+
+/* The simulator's own inverse masses; without those of the tangents there is no friction. */
+static void state_masses(const struct impact_law *law, double matrix[9],
+                         struct percuss_request *request)
+{
+    const double *along = law->tangential_mass, *w = law->coupling;
+    const double all[9] = {
+        law->inverse_effective_mass, w[0], w[1], w[0], along[0], w[2], w[1], w[2], along[1]};
+    memcpy(matrix, all, sizeof all);
+    request->delassus = matrix;
+    request->delassus_rows = states_tangents(law) ? 3 : 1;
+    if (!states_tangents(law))
+        request->options.friction = PERCUSS_FRICTION_NONE;
 }
 
 /* The moment about the body's centre of mass of `sign` times an impulse at the point. */
@@ -150,7 +188,7 @@ static void take_moment(const double point[3], const struct pose *pose, double s
     }
 }
 
-/* The simulator's own mass matrix excludes friction, which needs more than the normal's part. */
+/* Friction needs more of the simulator's own inverse masses than the normal's. */
 static fmi3Status check_friction(struct fmu *fmu)
 {
     const struct impact_law *law = (const struct impact_law *)fmu->numbers;
@@ -158,8 +196,10 @@ static fmi3Status check_friction(struct fmu *fmu)
         return fmi3OK;
     if (!law->by_poses)
         return fmu_error(fmu, "friction: %g: only 0 is allowed without by_poses", law->friction);
-    if (law->inverse_effective_mass != 0.0)
-        return fmu_error(fmu, "friction: %g: only 0 is allowed with inverse_effective_mass",
+    if (law->inverse_effective_mass != 0.0 && !states_tangents(law))
+        return fmu_error(fmu,
+                         "friction: %g: only 0 is allowed with inverse_effective_mass and without "
+                         "inverse_mass_tangential",
                          law->friction);
     return fmi3OK;
 }
@@ -198,10 +238,13 @@ static fmi3Status answer(struct fmu *fmu)
     if (law->inverse_effective_mass < 0.0)
         return fmu_error(fmu, "inverse_effective_mass: %g: a number > 0 is needed, or 0",
                          law->inverse_effective_mass);
-    if (law->inverse_effective_mass != 0.0) {
-        request.delassus = &law->inverse_effective_mass;
-        request.options.friction = PERCUSS_FRICTION_NONE;
-    }
+    double matrix[9];
+    if (law->inverse_effective_mass != 0.0)
+        state_masses(law, matrix, &request);
+    else if (states_tangents(law))
+        return fmu_error(fmu,
+                         "inverse_mass_tangential: %g, %g: inverse_effective_mass is needed too",
+                         law->tangential_mass[0], law->tangential_mass[1]);
 
     /* the outputs keep the last impact that was answered */
     struct impact impact;

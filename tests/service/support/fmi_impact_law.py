@@ -9,7 +9,7 @@ import fmpy
 import numpy as np
 from fmpy.validation import validate_fmu
 
-from fmi_lib import Unpacked, close, query
+from fmi_lib import Unpacked, ask, close, query
 
 FMU, PERCUSS, LIBRARY, DOMAIN = sys.argv[1:]
 SPEED, GAP = 0.3, 1e-3
@@ -121,9 +121,39 @@ def check_friction(unpacked):
     assert not vectors[1].any()
     fmu.freeInstance()
     unpacked.refused("friction: 0.2: only 0 is allowed without by_poses", unpacked.instance, start={"friction": 0.2})
-    unpacked.refused("friction: 0.2: only 0 is allowed with inverse_effective_mass", strike, unpacked,
-                     {"by_poses": True, "friction": 0.2}, {**slanted, "inverse_effective_mass": 10.0})
+    unpacked.refused("friction: 0.2: only 0 is allowed with inverse_effective_mass and without inverse_mass_tangential",
+                     strike, unpacked, {"by_poses": True, "friction": 0.2}, {**slanted, "inverse_effective_mass": 10.0})
+    unpacked.refused("inverse_mass_tangential: 20, 0: inverse_effective_mass is needed too", strike, unpacked,
+                     {"by_poses": True, "friction": 0.2}, {**slanted, "inverse_mass_tangential[1]": 20.0})
     unpacked.refused("friction", strike, unpacked, {"by_poses": True, "friction": -0.2}, slanted)
+
+
+def check_own_masses(unpacked):
+    """Friction of bodies in joints, by the simulator's own inverse masses: the answer to a request with that matrix."""
+    names = [f"impulse_vector[{i}]" for i in (1, 2, 3)]
+    slanted = {**POSES, "a.velocity[1]": 0.1, "a.velocity[2]": -0.05, "a.velocity[3]": -SPEED}
+    tangent = (0.6, 0.8, 0.0)
+    matrix = [[10.0, 0.5, -1.0], [0.5, 30.0, 2.0], [-1.0, 2.0, 25.0]]
+    own = {**{f"tangent[{i + 1}]": tangent[i] for i in range(3)}, "inverse_effective_mass": 10.0,
+           "inverse_mass_tangential[1]": 30.0, "inverse_mass_tangential[2]": 25.0, "inverse_mass_coupling[1]": 0.5,
+           "inverse_mass_coupling[2]": -1.0, "inverse_mass_coupling[3]": 2.0}
+    place = {name: [POSES.get(f"{name}[{i}]", 0.0) for i in (1, 2, 3)] for name in ("a.position", "point", "normal")}
+    question = {
+        "bodies": [{"id": "steel-sphere", "position": place["a.position"], "velocity": [0.1, -0.05, -SPEED]},
+                   {"id": "al-beam"}],
+        "contacts": [{"a": 0, "b": 1, "point": place["point"], "normal": place["normal"], "friction": 0.2,
+                      "tangent": tangent}],
+        "delassus": matrix}
+    reply = ask(PERCUSS, question)
+    values, fmu = strike(unpacked, {"by_poses": True, "friction": 0.2}, {**slanted, **own})
+    np.testing.assert_allclose(unpacked.get(fmu, *names), reply["contacts"][0]["impulse_vector"], rtol=1e-9, atol=1e-12)
+    assert reply["delassus_source"] == "client" and reply["contacts"][0]["friction"] == 0.2
+    along = reply["contacts"][0]["impulse_tangential"]
+    assert math.hypot(*along) > 0.05 * values[0], along
+    fmu.freeInstance()
+    # a matrix that is none is the service's to refuse
+    unpacked.refused("positive semidefinite", strike, unpacked, {"by_poses": True, "friction": 0.2},
+                     {**slanted, **own, "inverse_mass_coupling[1]": 20.0})
 
 
 def check_errors(unpacked):
@@ -147,5 +177,6 @@ unpacked = Unpacked(FMU)
 check_again(unpacked, reply)
 check_ways(unpacked, reply)
 check_friction(unpacked)
+check_own_masses(unpacked)
 check_errors(unpacked)
 print(f"e = {reply['contacts'][0]['restitution']:.6f}")

@@ -20,6 +20,13 @@ def query(percuss, speed, *arguments):
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
+def ask(percuss, request):
+    """The reply to a whole request, both as objects."""
+    command = [percuss, "query", "--local", "--json", "--request", "-"]
+    asked = subprocess.run(command, check=True, input=json.dumps(request), capture_output=True, text=True)
+    return json.loads(asked.stdout)
+
+
 class Unpacked:
     """An FMU on disk, of which instances are made."""
 
