@@ -45,7 +45,7 @@ static const struct argp_option scene_options[] = {
      "states none); 0: none",
      11},
     {"friction-law", KEY_FRICTION_LAW, "L", 0,
-     "micro-slip (default) or none, where there is a coefficient; plain is not there yet", 11},
+     "micro-slip (default), plain or none, where there is a coefficient", 11},
     {"angle", KEY_ANGLE, "DEG", 0,
      "of query, sweep, ensemble: angle of A's flight from the normal, degrees; --speed is along "
      "the flight: its part V sin DEG is along the first tangent of the surface, of a beam its axis "

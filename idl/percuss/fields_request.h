@@ -52,7 +52,8 @@
 
 #define PERCUSS_OPTION_FRICTION_FIELDS(F, ...)                                                     \
     F(CHOICE, friction, friction, PERCUSS_FRICTION_COUNT,                                          \
-      "law of the tangential forces where a coefficient is stated; plain: not there yet")
+      "law of the tangential forces where a coefficient is stated; plain: without the contact's "  \
+      "own compliance")
 
 #define PERCUSS_OPTION_FIELDS(F, ...)                                                              \
     PERCUSS_OPTION_FIRST_FIELDS(F)                                                                 \

@@ -1,8 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What friction costs: warm solves at the default tolerance with and without it, in turns, of two
- * balls, and of a ball on the beam's middle, thrown along the first tangent and between both. */
+/* What friction costs: warm solves at the default tolerance without it, with micro-slip and with
+ * plain friction, in turns, of two balls, and of a ball on the beam's middle, thrown along the
+ * first tangent and between both. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,7 +46,8 @@ int main(int argc, char **argv)
     struct solve_context context = {.catalogue = &catalogue.set};
     if (!workspace || !bench_catalogue_make(&catalogue, 0))
         return EXIT_FAILURE;
-    puts("| scene, mu, slip | without, us | with, us | ratio |\n|---|---|---|---|");
+    puts("| scene, mu, slip | without, us | micro-slip, us | ratio | plain, us | ratio |\n"
+         "|---|---|---|---|---|---|");
     for (size_t i = 0; i < 8; i++) {
         const struct bench_scene *scene = bench_scene_find(scenes[i / 4]);
         if (!scene)
@@ -53,14 +55,17 @@ int main(int argc, char **argv)
         double mu = coefficients[i % 2];
         bool between = i / 2 % 2;
         struct solve_request request = bench_thrown(scene, 1e-3, mu, between), bare = request;
+        struct solve_request plain = request;
         bare.contacts[0].friction = 0.0;
+        plain.options.friction = PERCUSS_FRICTION_PLAIN;
         double without = cost(workspace, &context, &bare, times);
         double with = cost(workspace, &context, &request, times);
-        if (without < 0.0 || with < 0.0)
+        double plainly = cost(workspace, &context, &plain, times);
+        if (without < 0.0 || with < 0.0 || plainly < 0.0)
             return EXIT_FAILURE;
-        printf("| %s, %g, %s | %.1f | %.1f | %.1f |\n", scene->title, mu,
+        printf("| %s, %g, %s | %.1f | %.1f | %.1f | %.1f | %.1f |\n", scene->title, mu,
                between ? "between the tangents" : "along a tangent", 1e6 * without, 1e6 * with,
-               with / without);
+               with / without, 1e6 * plainly, plainly / without);
     }
     solve_workspace_free(workspace);
     return EXIT_SUCCESS;

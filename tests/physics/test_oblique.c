@@ -434,6 +434,30 @@ static void large_solids(void **state)
     lab_free(lab);
 }
 
+/* With plain friction a solid's modes at a point would sum up to the contact's own flexibility, and
+ * the answer follow their number: solids are rigid along their surface. */
+static void plain_solids(void **state)
+{
+    (void)state;
+    static const char *const bodies[] = {"block", "cylinder", "cube 100", "cube 400"};
+    static struct solve_result result, other;
+    struct lab *lab = solid_lab();
+    for (int i = 0; i < 8; i++) {
+        double top = i % 4 < 2 ? 0.01 : 0.05 * (i % 4 == 2 ? 1 : 4);
+        struct solve_request request = glance(bodies[i % 4], 0.0, top, i < 4 ? 10.0 : 25.0, 0.3);
+        request.options.friction = PERCUSS_FRICTION_PLAIN;
+        lab_solve(lab, &request, &result);
+        request.options.tolerance = 1e-5;
+        lab_solve(lab, &request, &other);
+        const struct solve_contact_result *a = &result.contacts[0], *b = &other.contacts[0];
+        for (int t = 0; t < 2; t++)
+            measured("more modes", a->impulse_tangential[t] / b->impulse_tangential[t], 1.0, 2e-3);
+        assert_int_equal(a->friction_state, PERCUSS_FRICTION_STATE_PARTLY);
+        near(result.energy.closure / result.energy.available, 0.0, 1e-5);
+    }
+    lab_free(lab);
+}
+
 /* Off the middle all three directions are coupled: what must not change an answer. */
 static void turned_solids(void **state)
 {
@@ -618,6 +642,7 @@ int main(void)
         cmocka_unit_test(models_of_sequences),
         cmocka_unit_test(slender_solids),
         cmocka_unit_test(large_solids),
+        cmocka_unit_test(plain_solids),
         cmocka_unit_test(turned_solids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

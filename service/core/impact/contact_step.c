@@ -39,18 +39,21 @@ static inline double larger(double a, double b)
  * short way is the quotient of two differences. */
 static const double SLIDE_LEFT = 0.003;
 static const double FINEST_SLIDE = 1e-8;
+/* The same of plain friction, which has no cells, by the accuracy. */
+static const double PLAIN_LEFT = 0.1;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena)
 {
     size_t n = scene_rows(scene);
+    double slide = scene->plain ? PLAIN_LEFT * accuracy : SLIDE_LEFT * sqrt(accuracy);
     *step = (struct contact_step){.arena = arena,
                                   .last_change = node_solver_last_change(accuracy),
-                                  .last_slide = larger(SLIDE_LEFT * sqrt(accuracy), FINEST_SLIDE)};
+                                  .last_slide = larger(slide, FINEST_SLIDE)};
     /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);
-    step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
+    step->approach = arena_take(arena, 4 * n, sizeof *step->approach);
     step->matrix = arena_reserve(arena, n * n, sizeof(double));
     if (!step->indentation || !step->target || !step->approach || !step->matrix)
         return false;
@@ -65,6 +68,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->taken = step->target + n;
     step->end_force = step->approach + n;
     step->end_indentation = step->end_force + n;
+    step->base = step->end_indentation + n;
     return coupling_create(&step->coupling, scene, arena) &&
            midpoint_create(&step->midpoint, scene, arena) &&
            friction_step_create(&step->friction, scene, accuracy, arena);
@@ -90,14 +94,32 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
     }
 }
 
+/* Of plain friction only the changes of d count: it begins anew at each step until the phase ends,
+ * so that they lose no digits to the way so far. */
+static void rebase_tangents(struct contact_step *step, const struct scene *scene,
+                            struct motion *motion)
+{
+    for (size_t row = scene->contacts; row < scene_rows(scene); row++) {
+        motion->gap[row] += step->end_indentation[row];
+        step->base[row] += step->end_indentation[row];
+        step->end_indentation[row] = 0.0;
+    }
+}
+
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
     midpoint_take(&step->midpoint, scene, motion, step->force);
+    if (scene->plain)
+        rebase_tangents(step, scene, motion);
 }
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
     midpoint_leave(&step->midpoint, scene, motion);
+    for (size_t row = scene->contacts; scene->plain && row < scene_rows(scene); row++) {
+        motion->gap[row] -= step->base[row];
+        step->base[row] = 0.0;
+    }
 }
 
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
@@ -569,6 +591,142 @@ static bool end_with_friction(struct contact_step *step, const struct scene *sce
     return false;
 }
 
+/* ---- Plain friction ---- */
+
+/* The size of the gaps and the modes' displacements that make up d. */
+static void find_reaches(struct contact_step *step, const struct scene *scene,
+                         const struct motion *motion)
+{
+    for (size_t i = 0; i < scene->frictions; i++) {
+        size_t row = scene_tangent(scene, i);
+        double reach = 0.0;
+        for (size_t r = row; r < row + 2; r++)
+            reach = larger(reach, fabs(motion->gap[r]) + fabs(step->target[r][NODES]));
+        step->friction.coulomb.reach[i] = reach;
+    }
+}
+
+/* The tangents' d at the nodes and the end under the present forces; the end's by their cubics. */
+static void find_slides(struct contact_step *step, const struct node_problem *problem)
+{
+    const struct scene *scene = problem->scene;
+    size_t rows = scene_rows(scene);
+    coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
+    for (size_t row = scene->contacts; row < rows; row++) {
+        const double *target = problem->target[row], *taken = step->taken[row];
+        for (int i = 0; i < NODES; i++)
+            step->indentation[row][i] = target[i] - taken[i];
+        double end = target[NODES] - taken[NODES];
+        for (size_t b = 0; b < rows; b++)
+            end -= scene->residual[row * rows + b] * collocation_last(step->force[b]);
+        step->end_indentation[row] = end;
+    }
+}
+
+/* The forces of all tangents under those of the normals, contact by contact; their largest change
+ * over their limits, NAN: no solution. */
+static double slide_all(struct contact_step *step, const struct node_problem *problem,
+                        const struct contact_start *start)
+{
+    const struct scene *scene = problem->scene;
+    struct round_change of;
+    for (size_t i = 0; i < scene->frictions; i++) {
+        const struct scene_friction *friction = &scene->friction[i];
+        const double *normal = step->force[friction->contact];
+        double(*force)[NODES] = step->force + scene_tangent(scene, i);
+        double before[2][NODES];
+        memcpy(before, force, sizeof before);
+        find_slides(step, problem);
+        const struct friction_way way = way_of(step, scene, i, start);
+        if (!coulomb_solve(&step->friction.coulomb, scene, i, problem->level, &way, normal, force))
+            return NAN;
+        double rounding = step->friction.coulomb.rounding[i];
+        of.limit[i] = of.moved[i] = 0.0;
+        for (int j = 0; j < NODES; j++) {
+            of.limit[i] = larger(of.limit[i], friction->coefficient * normal[j]);
+            double change = hypot(force[0][j] - before[0][j], force[1][j] - before[1][j]);
+            of.moved[i] = larger(of.moved[i], change > rounding ? change : 0.0);
+        }
+    }
+    return largest_change(&of, of.moved, scene->frictions);
+}
+
+/* Sweeps over contacts that stick on one body each take a share of what the others leave. */
+enum { MOST_SWEEPS = 200 };
+
+/* As solve_with_friction. */
+static enum contact_step_end solve_plain(struct contact_step *step,
+                                         const struct node_problem *problem,
+                                         const struct contact_start *start, double last)
+{
+    const struct scene *scene = problem->scene;
+    if (!coulomb_prepare(&step->friction.coulomb, scene, problem->coupling, problem->level,
+                         step->arena))
+        return STEP_MEMORY;
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        enum contact_step_end end = solve_normals(step, problem, start);
+        if (end != STEP_SOLVED)
+            return end;
+        double first = slide_all(step, problem, start), change = first;
+        for (int sweep = 0; scene->frictions > 1 && change > last && sweep < MOST_SWEEPS; sweep++)
+            change = slide_all(step, problem, start);
+        if (isnan(change) || (scene->frictions > 1 && change > last))
+            return STEP_UNSOLVED;
+        step->iterations++;
+        if (round > 0 && first <= last) {
+            find_slides(step, problem);
+            return STEP_SOLVED;
+        }
+    }
+    return STEP_UNSOLVED;
+}
+
+/* The tangents' forces at the end are those of their last points. */
+static bool end_plain(struct contact_step *step, const struct scene *scene,
+                      const struct contact_start *start)
+{
+    for (size_t row = scene->contacts; row < scene_rows(scene); row++)
+        step->end_force[row] = collocation_last(step->force[row]);
+    double approach[PERCUSS_MAX_CONTACTS];
+    for (size_t c = 0; c < scene->contacts; c++)
+        approach[c] = less_residual(step, scene, c, step->approach[c]);
+    memcpy(step->approach, approach, scene->contacts * sizeof *approach);
+    if (!find_end(step, scene))
+        return false;
+    for (size_t row = scene->contacts; row < scene_rows(scene); row++)
+        step->end_indentation[row] =
+            less_residual(step, scene, row, step->approach[row]) -
+            scene->residual[row * (scene_rows(scene) + 1)] * step->end_force[row];
+    for (size_t i = 0; i < scene->frictions; i++) {
+        const struct friction_way way = way_of(step, scene, i, start);
+        coulomb_end(&step->friction.coulomb, i, &way, step->force + scene_tangent(scene, i));
+    }
+    return true;
+}
+
+/* ---- A step ---- */
+
+/* Forces and indentations at the nodes. */
+static enum contact_step_end solve_nodes(struct contact_step *step,
+                                         const struct node_problem *problem,
+                                         const struct contact_start *start)
+{
+    if (!problem->scene->frictions)
+        return solve_normals(step, problem, start);
+    return (problem->scene->plain ? solve_plain : solve_with_friction)(step, problem, start,
+                                                                       step->last_slide);
+}
+
+/* And at the end. */
+static bool solve_end(struct contact_step *step, const struct scene *scene,
+                      const struct contact_start *start)
+{
+    if (!scene->frictions)
+        return find_end(step, scene);
+    return scene->plain ? end_plain(step, scene, start)
+                        : end_with_friction(step, scene, start, step->last_slide);
+}
+
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
@@ -582,6 +740,8 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     }
     /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
+    if (scene->plain)
+        find_reaches(step, scene, motion);
     predict_all(step, scene_rows(scene), start, level);
     /* forces and indentations at the nodes */
     const struct node_problem problem = {
@@ -592,9 +752,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .taken = step->taken,
         .last_change = step->last_change,
     };
-    enum contact_step_end end = scene->frictions
-                                    ? solve_with_friction(step, &problem, start, step->last_slide)
-                                    : solve_normals(step, &problem, start);
+    enum contact_step_end end = solve_nodes(step, &problem, start);
     if (end != STEP_SOLVED)
         return end;
     if (step->midpoint.damped)
@@ -603,7 +761,5 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     find_approaches(step, scene, level);
     for (size_t c = 0; c < scene_rows(scene); c++)
         step->end_indentation[c] = collocation_last(step->indentation[c]);
-    bool ends = scene->frictions ? end_with_friction(step, scene, start, step->last_slide)
-                                 : find_end(step, scene);
-    return ends ? STEP_SOLVED : STEP_UNSOLVED;
+    return solve_end(step, scene, start) ? STEP_SOLVED : STEP_UNSOLVED;
 }

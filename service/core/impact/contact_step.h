@@ -29,6 +29,7 @@ struct contact_step {
     double *matrix;                /* contacts^2 */
     double *together;              /* (contacts NODES)^2; NULL before a solution of all at once */
     double *approach, *end_force;
+    double *base; /* [row]: plain friction: d of its tangents that the gaps leave out */
     /* with friction: [row] forces of the round before, the last change of tangents' displacements,
      * and their forces' relative change that ends the rounds */
     double (*before)[NODES], (*change)[NODES];

@@ -4,6 +4,7 @@
 #include "impact/friction_step.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Lagrange's polynomials through `count` places, at s. */
 static void lagrange(const double *place, size_t count, double s, double *value)
@@ -50,8 +51,14 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
 {
     size_t n = scene->frictions;
     step->count = n;
+    step->plain = scene->plain;
     if (n == 0)
         return true;
+    if (step->plain) {
+        bool made = coulomb_create(&step->coulomb, scene, arena);
+        step->stuck = step->coulomb.stuck;
+        return made;
+    }
     size_t cells = cells_for(accuracy);
     step->now = arena_take(arena, 3 * n, sizeof *step->now);
     step->stuck = arena_take(arena, n, sizeof *step->stuck);
@@ -74,6 +81,10 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
 void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
                          const double *depth)
 {
+    if (step->plain) {
+        coulomb_begin(&step->coulomb);
+        return;
+    }
     for (size_t i = 0; i < step->count; i++) {
         size_t contact = scene->friction[i].contact;
         double none[2];
@@ -146,15 +157,42 @@ void friction_step_deepen(struct friction_step *step, const struct scene *scene,
                           double deeper)
 {
     size_t friction = scene_friction_of(scene, contact);
-    if (friction < step->count)
+    if (friction < step->count && !step->plain)
         friction_deepen(&step->now[friction], deeper);
 }
 
 void friction_step_take(struct friction_step *step)
 {
+    if (step->plain) {
+        coulomb_take(&step->coulomb);
+        return;
+    }
     for (size_t i = 0; i < step->count; i++) {
         struct friction taken = step->after[i];
         step->after[i] = step->now[i];
         step->now[i] = taken;
     }
+}
+
+double friction_step_rounding(const struct friction_step *step, size_t i)
+{
+    return step->plain ? step->coulomb.rounding[i] : 0.0;
+}
+
+double friction_step_lost(const struct friction_step *step, size_t i)
+{
+    return step->plain ? step->coulomb.lost[i] : step->now[i].lost;
+}
+
+double friction_step_stored(const struct friction_step *step, size_t i)
+{
+    return step->plain ? 0.0 : friction_stored(&step->now[i]);
+}
+
+void friction_step_force(const struct friction_step *step, size_t i, double force[2])
+{
+    if (step->plain)
+        memcpy(force, step->coulomb.force[i], sizeof step->coulomb.force[i]);
+    else
+        friction_force(&step->now[i], force);
 }

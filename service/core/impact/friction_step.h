@@ -1,27 +1,31 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The tangential forces of contacts with friction on the steps of a contact phase. The law depends
- * on the way (contact/friction.h): it is walked along the polynomials through the step's start and
- * nodes, with points between the nodes, so that no instant of sticking or sliding is looked for:
- * the cells smear them. */
+/* The tangential forces of contacts with friction on the steps of a contact phase. With micro-slip
+ * the law depends on the way (contact/friction.h): it is walked along the polynomials through the
+ * step's start and nodes, with points between the nodes, so that no instant of sticking or sliding
+ * is looked for: the cells smear them. Plain friction (scene.h) has the law of impact/coulomb.h. */
 #ifndef PERCUSS_IMPACT_FRICTION_STEP_H
 #define PERCUSS_IMPACT_FRICTION_STEP_H
 
 #include "contact/friction.h"
 #include "impact/collocation.h"
+#include "impact/coulomb.h"
 #include "impact/scene.h"
 
 /* Parts of a way between two nodes. */
 enum { FRICTION_PARTS = 2 };
 
 struct friction_step {
-    size_t count;           /* contacts with friction */
+    size_t count; /* contacts with friction */
+    bool plain;
     struct friction *now;   /* [count]: histories at the present */
     struct friction *along; /* [count]: on the step under way, up to its last node */
     struct friction *after; /* [count]: at its end */
-    double (*stuck)[NODES]; /* [count]: stiffness of the cells that stick at the nodes, N/m */
+    double (*stuck)[NODES]; /* [count]: stiffness of the cells that stick at the nodes, N/m;
+                               plain: 1 where it sticks */
     struct friction_points *points;
+    struct coulomb coulomb; /* plain friction: instead of all but `count` and `stuck` */
 };
 
 /* Lagrange's polynomials at the points of the ways to the nodes, through the start and the nodes;
@@ -29,14 +33,6 @@ struct friction_step {
 struct friction_points {
     double to_node[NODES][FRICTION_PARTS][NODES + 1];
     double to_end[FRICTION_PARTS][NODES + 2];
-};
-
-/* The local d of a contact's rows n, t1, t2 (scene.h) at the start, the nodes and the end of a
- * step, m. */
-struct friction_way {
-    double start[3];
-    const double *nodes[3]; /* [NODES] */
-    double end[3];
 };
 
 /* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out
@@ -66,5 +62,14 @@ void friction_step_deepen(struct friction_step *step, const struct scene *scene,
 
 /* The end becomes the present. */
 void friction_step_take(struct friction_step *step);
+
+/* Of the forces of friction `i` on the step under way by the rounding of what they follow from, N.
+ */
+double friction_step_rounding(const struct friction_step *step, size_t i);
+
+/* At the present, of friction `i`: lost by slip so far and stored, J; the tangential force, N. */
+double friction_step_lost(const struct friction_step *step, size_t i);
+double friction_step_stored(const struct friction_step *step, size_t i);
+void friction_step_force(const struct friction_step *step, size_t i, double force[2]);
 
 #endif

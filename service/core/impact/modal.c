@@ -557,9 +557,11 @@ static double tangents_roughness(const struct modal_run *run, double group)
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct scene_friction *friction = &scene->friction[i];
         double limit = friction->coefficient * force_scale(run, friction->contact, group);
-        for (size_t t = 0; t < 2; t++)
-            worst = larger(
-                worst, rough_part(run, scene_tangent(scene, i) + t, scene->contacts > 1) / limit);
+        double rounding = friction_step_rounding(&run->step.friction, i);
+        for (size_t t = 0; t < 2; t++) {
+            double rough = rough_part(run, scene_tangent(scene, i) + t, scene->contacts > 1);
+            worst = larger(worst, (rough - rounding) / limit);
+        }
     }
     return TANGENTIAL_ROUGHNESS * worst;
 }
@@ -828,12 +830,12 @@ static void end_friction(struct modal_run *run)
     const struct scene *scene = &run->march.scene;
     struct impact_outcome *outcome = run->march.outcome;
     for (size_t i = 0; i < scene->frictions; i++) {
-        const struct friction *now = &run->step.friction.now[i];
-        outcome->slid += now->lost;
+        const struct friction_step *friction = &run->step.friction;
+        outcome->slid += friction_step_lost(friction, i);
         if (!run->march.closed[scene->friction[i].contact])
             continue;
-        outcome->sheared += friction_stored(now);
-        friction_force(now, run->march.tangential + 2 * i);
+        outcome->sheared += friction_step_stored(friction, i);
+        friction_step_force(friction, i, run->march.tangential + 2 * i);
     }
 }
 

@@ -12,7 +12,8 @@
  * A row is a direction in which the bodies of a contact push each other: the normals of all
  * contacts first, then two tangents of each contact with friction. All equations but the law are
  * the same for both: of a tangent g is the displacement of body a's surface against b's, F the
- * force on a along it, and d < 0 its displacement. The tangential law is contact/friction.h.
+ * force on a along it, and d < 0 its displacement. The tangential law is contact/friction.h, or of
+ * plain friction impact/coulomb.h.
  */
 #ifndef PERCUSS_IMPACT_SCENE_H
 #define PERCUSS_IMPACT_SCENE_H
@@ -42,7 +43,8 @@ struct scene_friction {
 
 struct scene {
     size_t contacts, groups, bodies;
-    size_t frictions;                      /* contacts with friction */
+    size_t frictions;                      /* contacts with friction, */
+    bool plain;                            /* all without the contact's own compliance */
     const double *w;                       /* rows^2, 1/kg */
     const double *residual;                /* rows^2, residual flexibility, m/N */
     const double *gap;                     /* [row], rigid, m */

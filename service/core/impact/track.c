@@ -182,13 +182,18 @@ void track_slide(struct track *track, double h, const double *normal, double (*c
     }
 }
 
+/* A slip that opposes the one before, but is below this share of it, is none: plain friction stops
+ * it to rounding. */
+static const double AT_REST = 1e-9;
+
 /* Of the sub-impact under way; one that sticks at first and turns back may slide then. */
 static enum percuss_friction_state state_of(const struct track *track)
 {
     const double *before = track->open.slip_before, *after = track->open.slip_after;
     if (!track->slid)
         return track->stuck ? PERCUSS_FRICTION_STATE_STUCK : PERCUSS_FRICTION_STATE_NONE;
-    if (before[0] * after[0] + before[1] * after[1] < 0.0)
+    double square = before[0] * before[0] + before[1] * before[1];
+    if (before[0] * after[0] + before[1] * after[1] < -AT_REST * square)
         return PERCUSS_FRICTION_STATE_REVERSED;
     return track->stuck ? PERCUSS_FRICTION_STATE_PARTLY : PERCUSS_FRICTION_STATE_SLID;
 }

@@ -231,6 +231,7 @@ static bool fill_friction(struct assembly *assembly, const struct problem *probl
                                               .ratio = {of->ratio[0], of->ratio[1], of->ratio[2]}};
     }
     assembly->scene.frictions = n;
+    assembly->scene.plain = problem->request->options.friction == PERCUSS_FRICTION_PLAIN;
     assembly->scene.friction = friction;
     return true;
 }

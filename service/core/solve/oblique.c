@@ -122,9 +122,6 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
         count += find_coefficient(problem, catalogue, c, &friction);
     if (count == 0)
         return PERCUSS_OK;
-    if (problem->request->options.friction == PERCUSS_FRICTION_PLAIN)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.friction: plain: not computed yet: micro-slip or none");
     if (problem->request->delassus && !problem->request->delassus_oblique)
         return refuse_normals(problem, fault);
     problem->friction = arena_reserve(problem->arena, count, sizeof *problem->friction);
@@ -167,6 +164,11 @@ static enum percuss_status refuse_friction(size_t contact, const char *reason, s
 enum percuss_status oblique_check(const struct problem *problem, struct fault *fault)
 {
     const struct solve_options *options = &problem->request->options;
+    if (problem->friction_count > 0 && options->friction == PERCUSS_FRICTION_PLAIN &&
+        options->method == PERCUSS_METHOD_CVODE)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.friction: plain: method cvode has no contact that sticks without "
+                         "compliance (method modal has; micro-slip or none)");
     for (size_t i = 0; i < problem->friction_count; i++) {
         size_t c = problem->friction[i].contact;
         if (contact_law_asked(options->contact_model)->method != CONTACT_BY_LAW)

@@ -9,15 +9,18 @@
 #include "solve/problem.h"
 
 /* Coefficients by the request or the catalogue, tangents and loads of the placed contacts.
- * PERCUSS_OK, BAD_REQUEST (a delassus without tangents, the plain law) or INTERNAL without memory.
- */
+ * PERCUSS_OK, BAD_REQUEST (a delassus without tangents) or INTERNAL without memory. */
 enum percuss_status oblique_find(struct problem *problem, const struct body_set *catalogue,
                                  struct fault *fault);
 
 /* Turns the tangential loads on a body into the planes of its axes. */
 void oblique_turn(struct problem *problem, size_t body);
 
-/* Refuses what friction is not computed for: finite elements. */
+/* The rows' inverse masses and slips, once W and the contacts' velocities are known. False: out of
+ * memory. */
+bool oblique_find_rows(struct problem *problem);
+
+/* Refuses what friction is not computed for: finite elements, and the plain law by CVODE. */
 enum percuss_status oblique_check(const struct problem *problem, struct fault *fault);
 
 /* A contact's friction, or NULL. */
