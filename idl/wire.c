@@ -5,13 +5,17 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "wire_loopback.h"
+#include "wire_ports.h"
 #include "wire_security.h"
 
 /* The domain of an earlier participant of this process serves as well, as soon as it is ready. */
@@ -73,6 +77,41 @@ bool wire_is_configured(void)
     return uri && *uri;
 }
 
+/* What the thread's last failure was about. */
+static _Thread_local struct {
+    uint32_t domain;
+    unsigned indices; /* that are taken */
+} failed;
+
+/* Where nothing says what there is it is taken to be up. */
+static bool has_loopback(void)
+{
+    struct ifaddrs *list = NULL;
+    if (getifaddrs(&list) != 0)
+        return true;
+    bool found = false;
+    for (const struct ifaddrs *entry = list; entry; entry = entry->ifa_next)
+        found = found || (entry->ifa_flags & IFF_LOOPBACK && entry->ifa_flags & IFF_UP &&
+                          entry->ifa_addr && entry->ifa_addr->sa_family == AF_INET);
+    freeifaddrs(list);
+    return found;
+}
+
+/* DDS has one code for most of what it finds wrong. */
+static dds_return_t find_reason(uint32_t domain, dds_return_t code)
+{
+    struct wire_ports *ports = malloc(sizeof *ports);
+    bool read = code == DDS_RETCODE_ERROR && ports && wire_ports_read_own(ports);
+    failed.domain = domain;
+    failed.indices = read ? wire_ports_indices(ports, domain) : 0;
+    free(ports);
+    if (code == DDS_RETCODE_ERROR && wire_is_configured())
+        return WIRE_CONFIGURED_BADLY;
+    if (code == DDS_RETCODE_ERROR && !has_loopback())
+        return WIRE_NO_LOOPBACK;
+    return failed.indices >= WIRE_LOOPBACK_INDICES ? WIRE_NO_INDEX : code;
+}
+
 dds_entity_t wire_participant_create(uint32_t domain)
 {
     return wire_participant_create_secured(domain, NULL);
@@ -86,15 +125,46 @@ dds_entity_t wire_participant_create_secured(uint32_t domain, const char *securi
         return WIRE_NO_ADDRESS_SPACE;
     dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain);
     if (made < 0)
-        return made;
+        return find_reason(domain, made);
     dds_qos_t *qos = security ? dds_create_qos() : NULL;
     if (qos)
         wire_security_set(security, qos);
     dds_entity_t participant = dds_create_participant(domain, qos, NULL);
     dds_delete_qos(qos);
+    if (participant > 0)
+        return participant;
     /* what the plugins find wrong is no more than an error to DDS, and a line in its log */
     return security && participant == DDS_RETCODE_ERROR ? DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
-                                                        : participant;
+                                                        : find_reason(domain, participant);
+}
+
+/* That other processes have all of the built-in configuration. */
+static void say_no_index(char *text, size_t size)
+{
+    const unsigned last = WIRE_LOOPBACK_INDICES - 1;
+    snprintf(text, size,
+             "other processes of this machine have participant indices 0 to %u of domain %u (UDP "
+             "ports %u to %u), one each, and there are no more: end some of them, or give all of "
+             "them a CYCLONEDDS_URI (config/cyclonedds.xml is a beginning) with a higher "
+             "Discovery/MaxAutoParticipantIndex than %u",
+             last, failed.domain, wire_ports_of_index(failed.domain, 0),
+             wire_ports_of_index(failed.domain, last) + 1, WIRE_LOOPBACK_INDICES);
+}
+
+/* Of what is wrong DDS tells standard error alone. */
+static void say_configured_badly(char *text, size_t size)
+{
+    enum { DDS_INDICES = 9 };
+    int length = snprintf(text, size,
+                          "Cyclone DDS cannot use CYCLONEDDS_URI=%.120s, for the reason that it "
+                          "wrote to standard error",
+                          getenv("CYCLONEDDS_URI"));
+    if (failed.indices >= DDS_INDICES)
+        snprintf(text + length, size - (size_t)length,
+                 "; where that is a free participant index, other processes of this machine have "
+                 "them all: Discovery/MaxAutoParticipantIndex, %d unless it is set, has to be "
+                 "higher for all of them",
+                 DDS_INDICES);
 }
 
 const char *wire_participant_problem(dds_return_t code)
@@ -104,21 +174,27 @@ const char *wire_participant_problem(dds_return_t code)
                "are needed for it, or a configuration in CYCLONEDDS_URI";
     if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
         return "its certificate or its permissions are not good, or do not belong together";
-    if (code == WIRE_NO_DESCRIPTORS || code == WIRE_NO_ADDRESS_SPACE) {
-        static _Thread_local char text[160];
-        if (code == WIRE_NO_DESCRIPTORS)
-            snprintf(text, sizeof text,
-                     "fewer than %d file descriptors are left, which DDS needs: ulimit -n must be "
-                     "higher",
-                     DESCRIPTORS);
-        else
-            snprintf(text, sizeof text,
-                     "less than %llu KiB of address space are left, which the threads of DDS need: "
-                     "ulimit -v must be higher",
-                     needed_bytes() / 1024);
-        return text;
-    }
-    return dds_strretcode(-code);
+    if (code == WIRE_NO_LOOPBACK)
+        return "127.0.0.1 is not up, and without CYCLONEDDS_URI nothing else is used: ip link set "
+               "lo up (as root) is needed";
+    if (code > WIRE_NO_DESCRIPTORS || code < WIRE_CONFIGURED_BADLY)
+        return dds_strretcode(-code);
+    static _Thread_local char text[480];
+    if (code == WIRE_NO_INDEX)
+        say_no_index(text, sizeof text);
+    else if (code == WIRE_CONFIGURED_BADLY)
+        say_configured_badly(text, sizeof text);
+    else if (code == WIRE_NO_DESCRIPTORS)
+        snprintf(text, sizeof text,
+                 "fewer than %d file descriptors are left, which DDS needs: ulimit -n must be "
+                 "higher",
+                 DESCRIPTORS);
+    else
+        snprintf(text, sizeof text,
+                 "less than %llu KiB of address space are left, which the threads of DDS need: "
+                 "ulimit -v must be higher",
+                 needed_bytes() / 1024);
+    return text;
 }
 
 static void set_partition(dds_qos_t *qos, const char *partition)

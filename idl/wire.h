@@ -28,7 +28,13 @@ enum { WIRE_WINDOW = 1024 };
 
 /* Codes of a participant besides those of DDS: what it needs is checked first, as it would end the
  * process. */
-enum { WIRE_NO_DESCRIPTORS = -9001, WIRE_NO_ADDRESS_SPACE = -9002 };
+enum {
+    WIRE_NO_DESCRIPTORS = -9001,
+    WIRE_NO_ADDRESS_SPACE = -9002,
+    WIRE_NO_INDEX = -9003,        /* without CYCLONEDDS_URI: other processes have them all */
+    WIRE_NO_LOOPBACK = -9004,     /* without CYCLONEDDS_URI: 127.0.0.1 is not up */
+    WIRE_CONFIGURED_BADLY = -9005 /* CYCLONEDDS_URI cannot be used */
+};
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
  * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),

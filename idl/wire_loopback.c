@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 
 enum {
-    HIGHEST_INDEX = 100, /* of a process in a domain */
+    HIGHEST_INDEX = WIRE_LOOPBACK_INDICES,
     MOST_SOCKETS = 64,
     DRAIN_ATTEMPTS = 1000,
 };

@@ -8,7 +8,7 @@
 
 /* Per thread: a client may be shared by threads, and a client that could not be created has no
  * place for a text. */
-static _Thread_local char error_text[512];
+static _Thread_local char error_text[768];
 
 enum percuss_result error_set(enum percuss_result result, const char *format, ...)
 {

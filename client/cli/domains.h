@@ -5,15 +5,9 @@
 #ifndef PERCUSS_CLI_DOMAINS_H
 #define PERCUSS_CLI_DOMAINS_H
 
-#include <stdio.h>
-
 #include "cli.h"
 
-enum { DOMAINS_MOST = 12, DOMAINS_COUNT = 231 };
-
-/* Marks the domains with a participant on this host: `table`, in the form of /proc/net/udp, lists
- * their UDP ports as bound. */
-void domains_by_ports(FILE *table, bool taken[DOMAINS_COUNT]);
+enum { DOMAINS_MOST = 12 };
 
 /* The domains but `common`'s in which a server of its partition announces itself, their number.
  * Takes half a second at most; no more than DOMAINS_MOST are asked. */

@@ -86,7 +86,7 @@ void complain_no_server(const struct common *common)
     char folder[PATH_MAX];
     char daemon[PATH_MAX];
     char settings[PATH_MAX];
-    char what[512];
+    char what[768];
     char elsewhere[128];
     const bool partition = common->partition && common->partition[0];
     /* before the library has something else to say */

@@ -22,6 +22,7 @@
 #include "moment.h"
 #include "ping.h"
 #include "receive.h"
+#include "wire_daemons.h"
 
 /* The partitions of the domain in which servers announce themselves. */
 
@@ -440,7 +441,7 @@ static enum percuss_result explain(const struct search *search)
 {
     struct percuss_client *client = search->client;
     const struct percuss_server_list *announced = &search->announced;
-    char others[200] = "", name[SERVERS_NAME_SIZE];
+    char others[512] = "", name[SERVERS_NAME_SIZE];
     size_t length = 0;
     /* the wanted one may be there and not answer; others are worth naming */
     for (size_t i = 0; i < announced->count; i++) {
@@ -466,7 +467,10 @@ static enum percuss_result explain(const struct search *search)
                          "no percussd has answered in DDS domain %u, where somebody reads requests "
                          "who has not announced himself",
                          client->domain);
+    /* some may be out of hearing */
     partitions_list(client, others, sizeof others);
+    if (!others[0])
+        wire_daemons_explain(client->domain, others, sizeof others);
     return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in %s%s%sDDS domain %u%s%s",
                      client->partition[0] ? "partition " : "", client->partition,
                      client->partition[0] ? " of " : "", client->domain,
