@@ -157,7 +157,7 @@ static void say_configured_badly(char *text, size_t size)
     enum { DDS_INDICES = 9 };
     int length = snprintf(text, size,
                           "Cyclone DDS cannot use CYCLONEDDS_URI=%.120s, for the reason that it "
-                          "wrote to standard error",
+                          "wrote to standard error: percuss doctor looks at it",
                           getenv("CYCLONEDDS_URI"));
     if (failed.indices >= DDS_INDICES)
         snprintf(text + length, size - (size_t)length,

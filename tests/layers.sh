@@ -120,8 +120,8 @@ only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
 only 'hdf5' 'service/core/mesh'
 only 'zmumps' 'tests/reference/spatial'
-only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
-only 'time\.h|sys/|unistd|pthread' 'service/core/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/core/catalogue|service/core/mesh|service/store|service/tools/tables|service/tools/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
+only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2|client/doctor'
+only 'time\.h|sys/|unistd|pthread' 'service/core/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/core/catalogue|service/core/mesh|service/store|service/tools/tables|service/tools/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2|client/doctor'
 
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
 # with its complementarity solver, and clients, command lines and files of measurements with its numbers

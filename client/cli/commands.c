@@ -20,6 +20,8 @@ const struct command COMMANDS[] = {
     {"dents", command_dents, &dents_argp, "the specimens that the server keeps, with their dents"},
     {"status", command_status, &status_argp, "what the server is doing"},
     {"ping", command_ping, &ping_argp, "round-trip time to the server"},
+    {"doctor", command_doctor, &doctor_argp,
+     "what keeps a server from answering, and what to do about it"},
     {"schema", command_schema, &schema_argp, "the JSON Schema of requests, replies and outputs"},
     {0},
 };

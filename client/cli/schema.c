@@ -364,6 +364,27 @@ static json_t *ping_schema(void)
     return OBJECT(members);
 }
 
+static json_t *finding_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("level", "string", "ok, warning or problem"),
+        VALUE("subject", "string", "what was looked at"),
+        VALUE("found", "string", "in words"),
+        VALUE("advice", "string", "what to do; empty: nothing"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *doctor_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("problems", "integer", "findings of that level"),
+        VALUE("warnings", "integer", "findings of that level"),
+        LIST("findings", "in the order in which it looks", finding_schema),
+    };
+    return OBJECT(members);
+}
+
 struct kind {
     const char *name;
     json_t *(*schema)(void);
@@ -373,11 +394,12 @@ static const struct kind kinds[] = {
     {"request", request_schema}, {"reply", reply_schema},     {"ensemble", ensemble_schema},
     {"sweep", sweep_schema},     {"compare", compare_schema}, {"calibrate", calibrate_schema},
     {"bodies", bodies_schema},   {"remarks", remarks_schema}, {"dents", dents_schema},
-    {"status", status_schema},   {"ping", ping_schema},       {"query", query_schema},
+    {"status", status_schema},   {"ping", ping_schema},       {"doctor", doctor_schema},
+    {"query", query_schema},
 };
 #define KIND_NAMES                                                                                 \
     "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping, "  \
-    "query"
+    "doctor, query"
 
 struct choice {
     struct common *common;
@@ -412,7 +434,7 @@ static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp schema_argp = {
     .parser = parse,
     .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping|"
-                "query",
+                "doctor|query",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
            "that 'query --json' prints (query: of several), of what another command prints with "
            "--json, or of the remarks of "

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* How to start a server: with the files beside this program, built or installed. */
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 
 #include "cli.h"
 #include "domains.h"
+#include "start_advice.h"
 
 /* From the folder of this program; in a build tree, build/bin of the source. */
 static const struct {
@@ -70,6 +70,30 @@ static bool unit_suits(const struct common *common, const char *folder)
            unit_domain(folder) == common->domain;
 }
 
+bool start_advice_daemon(char daemon[PATH_MAX], char settings[PATH_MAX])
+{
+    char folder[PATH_MAX];
+    bool known = own_folder(folder), found = false;
+    for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
+        found = start_advice_find(folder, places[i].daemon, daemon) &&
+                start_advice_find(folder, places[i].settings, settings);
+    return found;
+}
+
+void start_advice(const struct common *common, char *text, size_t size)
+{
+    char folder[PATH_MAX];
+    char daemon[PATH_MAX];
+    char settings[PATH_MAX];
+    const bool partition = common->partition && common->partition[0];
+    const bool unit = own_folder(folder) && unit_suits(common, folder);
+    const bool found = start_advice_daemon(daemon, settings);
+    snprintf(text, size, "start one with: %s%s --config %s --domain %u%s%s",
+             unit ? "systemctl start percussd; or by yourself: " : "", found ? daemon : "percussd",
+             found ? settings : "FILE", common->domain, partition ? " --partition " : "",
+             partition ? common->partition : "");
+}
+
 /* Where else servers are: "; one is in domain 7, 9". */
 static void list_domains(const struct common *common, char *text, size_t size)
 {
@@ -83,23 +107,13 @@ static void list_domains(const struct common *common, char *text, size_t size)
 
 void complain_no_server(const struct common *common)
 {
-    char folder[PATH_MAX];
-    char daemon[PATH_MAX];
-    char settings[PATH_MAX];
     char what[768];
     char elsewhere[128];
-    const bool partition = common->partition && common->partition[0];
+    char advice[3 * PATH_MAX];
     /* before the library has something else to say */
     snprintf(what, sizeof what, "%s", percuss_error_text());
     list_domains(common, elsewhere, sizeof elsewhere);
-    bool known = own_folder(folder), found = false;
-    for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
-        found = start_advice_find(folder, places[i].daemon, daemon) &&
-                start_advice_find(folder, places[i].settings, settings);
-    complain("%s%s; --local needs none; start one with: %s%s --config %s --domain %u%s%s", what,
-             elsewhere,
-             known && unit_suits(common, folder) ? "systemctl start percussd; or by yourself: "
-                                                 : "",
-             found ? daemon : "percussd", found ? settings : "FILE", common->domain,
-             partition ? " --partition " : "", partition ? common->partition : "");
+    start_advice(common, advice, sizeof advice);
+    complain("%s%s; percuss doctor looks for the reason; --local needs none; %s", what, elsewhere,
+             advice);
 }

@@ -141,11 +141,10 @@ static bool check_store(const struct settings *settings)
     struct fault fault;
     if (!settings->store[0])
         return true;
-    if (database_check(settings->store, SCHEMA_VERSION, &fault) == PERCUSS_OK) {
-        if (database_room_check(settings->store, &fault))
-            fprintf(stderr, "percussd: warning: store: %s: %s\n", settings->store, fault.text);
+    if (database_room_check(settings->store, &fault))
+        fprintf(stderr, "percussd: warning: store: %s: %s\n", settings->store, fault.text);
+    if (database_check(settings->store, SCHEMA_VERSION, &fault) == PERCUSS_OK)
         return true;
-    }
     fprintf(stderr, "percussd: store: %s\n", fault.text);
     return false;
 }

@@ -61,6 +61,11 @@ static void tell_who_may_ask(const char *security)
 {
     if (geteuid() == 0)
         log_line(LEVEL_WARNING, "runs as root: any other user would do");
+    const char *uri = getenv("CYCLONEDDS_URI");
+    if (wire_is_configured())
+        log_line(LEVEL_INFO, "CYCLONEDDS_URI is %.300s", uri);
+    else
+        log_line(LEVEL_INFO, "CYCLONEDDS_URI is not set: this machine alone is heard");
     if (security)
         log_line(LEVEL_INFO, "DDS Security: the identity in %s", security);
     else if (wire_is_configured())

@@ -18,6 +18,7 @@ KINDS = [
     ("dents", "Specimens", "what `percuss dents --json` prints"),
     ("status", "Servers", "what `percuss status --json` prints"),
     ("ping", "Round trips", "what `percuss ping --json` prints"),
+    ("doctor", "Findings", "what `percuss doctor --json` prints"),
     ("query", "Several answers", "what `percuss query --json` prints to several speeds or contact models"),
 ]
 

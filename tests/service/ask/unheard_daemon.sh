@@ -23,6 +23,7 @@ asks_with() {
 names_uri() {
     says "percussd (process $daemon) is there $1"
     says "it must be the same for both"
+    says "percuss doctor looks for the reason"
 }
 
 say "without a daemon it says what the variable decides"
@@ -36,6 +37,7 @@ CYCLONEDDS_URI=$apart
 export CYCLONEDDS_URI
 start_daemon
 unset CYCLONEDDS_URI
+logged "info    CYCLONEDDS_URI is $apart" || fail "the log does not name it"
 asks_with ""
 names_uri "with CYCLONEDDS_URI=$apart, which is not set here, where 127.0.0.1 alone is heard"
 CYCLONEDDS_URI=$apart "$bin/percuss" ping --domain "$domain" >"$out" 2>"$err" || fail "it does not answer those who have it"
@@ -70,6 +72,7 @@ stop_daemon
 
 say "set in the client's shell alone"
 start_daemon
+logged "info    CYCLONEDDS_URI is not set: this machine alone is heard" || fail "the log does not say so"
 asks_with "$apart"
 names_uri "without CYCLONEDDS_URI and hears 127.0.0.1 alone, while here it is $apart"
 

@@ -8,7 +8,7 @@ python3 -c 'import jsonschema' 2>/dev/null || {
     echo "python3-jsonschema is not there: skipped"
     exit 77
 }
-for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping query; do
+for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping doctor query; do
     "$bin/percuss" schema "$kind" >"$work/$kind.schema"
 done
 
@@ -61,6 +61,7 @@ printed remarks 0 bodies --check
 printed dents 0 dents
 printed status 0 status
 printed ping 0 ping
+printed doctor 0 doctor
 
 say "and nothing else is: a member more, one less, another type"
 percuss bodies --json >"$work/bodies.json"

@@ -83,6 +83,8 @@ stop_daemon
 fill
 start_daemon
 logged "warning store: there is no room: 0 KiB are free" || fail "not said"
+expect 1 percuss doctor
+shows "warning  state: store: $volume/specimens.db: there is no room: 0 KiB are free in $volume/, and 2048 are needed"
 expect 0 query
 refused bar-1 3 0
 [ "$(impacts bar-1)" = 2 ] || fail "$(cat "$out")"

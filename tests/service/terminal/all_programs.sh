@@ -57,7 +57,7 @@ expect 2 "$bin/percuss" frobnicate
 says "'frobnicate' is not a command; percuss --help lists them"
 expect 2 "$bin/percuss" help swep
 says "did you mean 'sweep'?"
-for command in query sweep ensemble bodies dents status ping; do
+for command in query sweep ensemble bodies dents status ping doctor; do
     expect 2 "$bin/percuss" "$command" steel-sphere
     says "'steel-sphere': no argument is expected, only options"
 done
