@@ -185,7 +185,9 @@ static void explain_daemon(const struct wire_daemon *daemon, char *text, size_t 
             ": it must be the same for both",
             daemon->user, SHOW(*own ? own : "not set, so that 127.0.0.1 alone is heard"));
     else if (likeness == WIRE_ALIKE)
-        snprintf(text, size, "with the same CYCLONEDDS_URI, and does not announce itself to us");
+        snprintf(text, size,
+                 "with the same CYCLONEDDS_URI, and does not announce itself to us (a secured "
+                 "one does not, without --security)");
     else if (!*own)
         snprintf(text, size,
                  "with CYCLONEDDS_URI=" SHOWN ", which is not set here, where 127.0.0.1 alone is "

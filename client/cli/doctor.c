@@ -182,7 +182,15 @@ static int look_for_server(const struct common *common, struct percuss_client *c
     if (percuss_client_warning(client, text))
         findings_add(findings, FINDING_WARNING, "security", NULL, "%s", text);
     enum percuss_result result = percuss_client_connect(client, common_patience(common));
-    dds_look_participants(look, findings);
+    const unsigned silent = dds_look_participants(look, findings);
+    const char *identity = getenv("PERCUSS_SECURITY");
+    if (silent > 0 && result != PERCUSS_RESULT_OK && !common->security && !(identity && *identity))
+        findings_add(
+            findings, FINDING_WARNING, "security",
+            "name the folder of an identity: --security DIR, or PERCUSS_SECURITY",
+            "%u of the participants tell%s nothing more, as a secured daemon to whoever has "
+            "no identity",
+            silent, silent == 1 ? "s" : "");
     if (result == PERCUSS_RESULT_OK) {
         look_at_servers(common, client, look, findings);
         return EXIT_ANSWERED;

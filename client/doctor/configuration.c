@@ -131,11 +131,11 @@ static void look_at_reach(const char *log, struct findings *findings)
         findings_add(findings, FINDING_PROBLEM, SUBJECT,
                      "name the other machines (or 127.0.0.1) as Discovery/Peers/Peer in it",
                      "AllowMulticast is false and no Peer is named: DDS finds nobody");
-    else if (wanted && strncmp(address, "127.", 4) != 0 && !machine_multicasts(address))
-        findings_add(findings, FINDING_WARNING, SUBJECT,
+    else if (!peer[0] && strncmp(address, "127.", 4) != 0 && !machine_multicasts(address))
+        findings_add(findings, FINDING_PROBLEM, SUBJECT,
                      "name the other machines as Discovery/Peers/Peer in it",
-                     "a multicast packet sent from %s does not come back: multicast is not "
-                     "available there, and DDS finds others by it",
+                     "multicast is not available from %s: no packet comes back that is sent so, "
+                     "and DDS finds others by it alone where no Peer is named",
                      address);
 }
 

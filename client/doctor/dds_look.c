@@ -32,7 +32,7 @@ bool dds_look_open(uint32_t domain, const char *partition, const char *security,
     char problem[512];
     struct membership membership = {domain, security};
     if (security && !wire_security_check(security, problem, sizeof problem)) {
-        findings_add(findings, FINDING_PROBLEM, "security",
+        findings_add(findings, FINDING_PROBLEM, "identity",
                      "deploy/security/percuss-keys.sh makes it", "%s", problem);
         return false;
     }
@@ -64,50 +64,75 @@ static char *property(const dds_builtintopic_participant_t *participant, const c
     return dds_qget_prop(participant->qos, name, &value) ? value : NULL;
 }
 
-/* Words for one, of which there may be several in a process; false: it is ours. */
+/* Whether it is one of this process. */
+static bool is_ours(const struct dds_look *look, const dds_builtintopic_participant_t *participant)
+{
+    enum { MOST = 8 };
+    dds_entity_t own[MOST];
+    dds_domainid_t domain = 0;
+    dds_guid_t id;
+    dds_get_domainid(look->participant, &domain);
+    dds_return_t count = dds_lookup_participant(domain, own, MOST);
+    for (dds_return_t i = 0; i < count && i < MOST; i++)
+        if (dds_get_guid(own[i], &id) == DDS_RETCODE_OK &&
+            memcmp(&id, &participant->key, sizeof id) == 0)
+            return true;
+    return false;
+}
+
+/* Words for one, of which there may be several in a process; false: it says nothing of itself. */
 static bool describe(const dds_builtintopic_participant_t *participant, char *text, size_t size)
 {
     char *name = property(participant, "__ProcessName");
     char *process = property(participant, "__Pid");
     char *host = property(participant, "__Hostname");
-    char own[64] = "";
-    gethostname(own, sizeof own - 1);
-    bool ours = process && host && atol(process) == (long)getpid() && strcmp(host, own) == 0;
-    if (name || process)
-        snprintf(text, size, "%.40s (process %.12s on %.40s)", name ? name : "unnamed",
-                 process ? process : "?", host ? host : "?");
-    else
-        snprintf(text, size, "one that is not of Cyclone DDS");
+    snprintf(text, size, "%.40s (process %.12s on %.40s)", name ? name : "unnamed",
+             process ? process : "?", host ? host : "?");
+    const bool described = name || process;
     dds_free(name);
     dds_free(process);
     dds_free(host);
-    return !ours;
+    return described;
+}
+
+/* Those that were found. */
+struct participants {
+    char names[1000]; /* of the first of them */
+    size_t length;
+    unsigned count, silent; /* all; those that say nothing of themselves */
+};
+
+static void note_participant(const dds_builtintopic_participant_t *participant,
+                             struct participants *all)
+{
+    char text[128];
+    const bool described = describe(participant, text, sizeof text);
+    if (described && strstr(all->names, text))
+        return;
+    all->silent += !described;
+    if (all->count++ < NAMED && described)
+        all->length += (size_t)snprintf(all->names + all->length, sizeof all->names - all->length,
+                                        "%s%s", all->length ? ", " : ": ", text);
 }
 
 unsigned dds_look_participants(const struct dds_look *look, struct findings *findings)
 {
-    char names[1000] = "", text[128];
-    size_t length = 0;
-    unsigned count = 0;
+    struct participants all = {.names = ""};
     void *samples[TAKEN_AT_ONCE] = {NULL};
     dds_sample_info_t infos[TAKEN_AT_ONCE];
     dds_return_t taken;
     dds_entity_t reader =
         dds_create_reader(look->participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, NULL, NULL);
     while ((taken = dds_take(reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
-        for (dds_return_t i = 0; i < taken; i++) {
-            if (!infos[i].valid_data || !describe(samples[i], text, sizeof text) ||
-                strstr(names, text))
-                continue;
-            if (count++ < NAMED)
-                length += (size_t)snprintf(names + length, sizeof names - length, "%s%s",
-                                           length ? ", " : ": ", text);
-        }
+        for (dds_return_t i = 0; i < taken; i++)
+            if (infos[i].valid_data && !is_ours(look, samples[i]))
+                note_participant(samples[i], &all);
         dds_return_loan(reader, samples, taken);
     }
     findings_add(findings, FINDING_OK, "participants", NULL, "%u other process%s in the domain%s%s",
-                 count, count == 1 ? " is" : "es are", names, count > NAMED ? ", ..." : "");
-    return count;
+                 all.count, all.count == 1 ? " is" : "es are", all.names,
+                 all.count > NAMED ? ", ..." : "");
+    return all.silent;
 }
 
 /* The first announcement that comes is as old as a second; the next one is new. */

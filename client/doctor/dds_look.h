@@ -18,7 +18,8 @@ struct dds_look {
 bool dds_look_open(uint32_t domain, const char *partition, const char *security,
                    struct dds_look *look, struct findings *findings);
 
-/* Finds which other processes are in the domain, by now. Their number. */
+/* Finds which other processes are in the domain, by now. The number of those that say nothing of
+ * themselves: secured ones, to whoever has no identity, and those that are not of Cyclone DDS. */
 unsigned dds_look_participants(const struct dds_look *look, struct findings *findings);
 
 /* How far the clock of that server is ahead of ours, s, by an announcement that comes within 1.5 s;

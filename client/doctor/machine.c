@@ -62,6 +62,23 @@ void machine_look_at_interfaces(bool network, struct findings *findings)
         findings_add(findings, FINDING_OK, SUBJECT, NULL, "up are: %s", all.text);
 }
 
+/* Linux sends packets to groups from interfaces without multicast, too, to itself. */
+static bool has_multicast(const struct in_addr *address)
+{
+    struct ifaddrs *list = NULL;
+    bool found = false;
+    if (getifaddrs(&list) != 0)
+        return true;
+    for (const struct ifaddrs *entry = list; entry; entry = entry->ifa_next) {
+        const struct sockaddr_in *of = (const struct sockaddr_in *)entry->ifa_addr;
+        found =
+            found || (of && of->sin_family == AF_INET && of->sin_addr.s_addr == address->s_addr &&
+                      entry->ifa_flags & IFF_MULTICAST);
+    }
+    freeifaddrs(list);
+    return found;
+}
+
 bool machine_multicasts(const char *address)
 {
     static const char GROUP[] = "239.255.0.1"; /* as DDS does */
@@ -78,7 +95,8 @@ bool machine_multicasts(const char *address)
     bool good = bind(file, (struct sockaddr *)&to, sizeof to) == 0 &&
                 getsockname(file, (struct sockaddr *)&to, &size) == 0;
     to.sin_addr = group.imr_multiaddr;
-    good = good && setsockopt(file, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) == 0 &&
+    good = good && has_multicast(&group.imr_interface) &&
+           setsockopt(file, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) == 0 &&
            setsockopt(file, IPPROTO_IP, IP_MULTICAST_IF, &group.imr_interface,
                       sizeof group.imr_interface) == 0 &&
            sendto(file, &byte, 1, 0, (struct sockaddr *)&to, sizeof to) == 1 &&
@@ -155,12 +173,10 @@ static void look_at_daemon(const struct wire_daemon *daemon, bool answered,
                      "domain; its CYCLONEDDS_URI only that user and root can read",
                      daemon->process, daemon->user);
     else if (likeness == WIRE_ALIKE)
-        findings_add(findings, level, SUBJECT,
-                     answered ? NULL
-                              : "look into its log; is it secured (--security), or in a partition "
-                                "(--partition)?",
-                     "percussd runs as process %ld in this domain, with the same CYCLONEDDS_URI",
-                     daemon->process);
+        findings_add(findings, FINDING_OK, SUBJECT, NULL,
+                     "percussd runs as process %ld in this domain, with the same CYCLONEDDS_URI%s",
+                     daemon->process,
+                     answered ? "" : ": it is not that which keeps it from answering");
     else
         findings_add(findings, level, SUBJECT,
                      answered ? NULL

@@ -11,7 +11,8 @@
 /* `network`: whether other machines are to be reached. */
 void machine_look_at_interfaces(bool network, struct findings *findings);
 
-/* Whether a multicast packet that is sent from this address comes back within a moment. */
+/* Whether the interface of this address has multicast, and a multicast packet that is sent from it
+ * comes back within a moment. */
 bool machine_multicasts(const char *address);
 
 /* Participant indices of the domain that are taken, from 0 on. */

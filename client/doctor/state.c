@@ -48,7 +48,12 @@ static bool look_at_line(const char *line, long running, bool good, struct findi
     /* what is no warning is a remark where nothing is wrong */
     if (is_left_out(line) || (running && is_of_running(line, running)) || (!warning && good))
         return false;
-    findings_add(findings, warning ? FINDING_WARNING : FINDING_PROBLEM, SUBJECT, NULL, "%s", line);
+    findings_add(findings, warning ? FINDING_WARNING : FINDING_PROBLEM, SUBJECT,
+                 strstr(line, "Permission denied")
+                     ? "give the daemon's user that right; where it is not this user: sudo -E "
+                       "percuss doctor"
+                     : NULL,
+                 "%s", line);
     return true;
 }
 

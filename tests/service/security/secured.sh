@@ -211,6 +211,14 @@ unset PERCUSS_SECURITY
 say "without an identity, or with a foreign one, there is no server"
 expect 3 query --timeout 1
 says "no percussd in DDS domain $domain"
+says "does not announce itself to us (a secured one does not, without --security)"
+expect 3 percuss doctor --timeout 1
+shows "; to do: name the folder of an identity: --security DIR, or PERCUSS_SECURITY"
+expect 0 ask_as asks
+expect 0 percuss doctor --security "$keys/asks"
+shows "ok       daemon: percussd "
+expect 3 percuss doctor --security "$keys/none" --timeout 1
+shows "problem  identity: security: $keys/none/identity_ca.pem: No such file or directory"
 cp -r "$work/foreign/asks" "$keys/foreign"
 expect 3 ask_as foreign
 says "no percussd in DDS domain $domain accepts our certificate and permissions"
