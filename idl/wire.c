@@ -19,11 +19,11 @@
 #include "wire_security.h"
 
 /* The domain of an earlier participant of this process serves as well, as soon as it is ready. */
-static dds_return_t create_domain(uint32_t domain)
+static dds_return_t create_domain(uint32_t domain, enum wire_side side)
 {
     static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&one_at_a_time);
-    dds_entity_t created = wire_loopback_create(domain);
+    dds_entity_t created = wire_loopback_create(domain, side);
     pthread_mutex_unlock(&one_at_a_time);
     return created == DDS_RETCODE_PRECONDITION_NOT_MET || created > 0 ? DDS_RETCODE_OK : created;
 }
@@ -80,7 +80,7 @@ bool wire_is_configured(void)
 /* What the thread's last failure was about. */
 static _Thread_local struct {
     uint32_t domain;
-    unsigned indices; /* that are taken */
+    unsigned first, indices; /* of its participant indices, and how many are taken */
 } failed;
 
 /* Where nothing says what there is it is taken to be up. */
@@ -98,34 +98,30 @@ static bool has_loopback(void)
 }
 
 /* DDS has one code for most of what it finds wrong. */
-static dds_return_t find_reason(uint32_t domain, dds_return_t code)
+static dds_return_t find_reason(uint32_t domain, enum wire_side side, dds_return_t code)
 {
     struct wire_ports *ports = malloc(sizeof *ports);
     bool read = code == DDS_RETCODE_ERROR && ports && wire_ports_read_own(ports);
     failed.domain = domain;
-    failed.indices = read ? wire_ports_indices(ports, domain) : 0;
+    failed.first = side == WIRE_CLIENT && !wire_is_configured() ? WIRE_LOOPBACK_CLIENTS : 0;
+    failed.indices = read ? wire_ports_indices(ports, domain, failed.first) : 0;
     free(ports);
     if (code == DDS_RETCODE_ERROR && wire_is_configured())
         return WIRE_CONFIGURED_BADLY;
     if (code == DDS_RETCODE_ERROR && !has_loopback())
         return WIRE_NO_LOOPBACK;
-    return failed.indices >= WIRE_LOOPBACK_INDICES ? WIRE_NO_INDEX : code;
+    return failed.first + failed.indices >= WIRE_LOOPBACK_INDICES ? WIRE_NO_INDEX : code;
 }
 
-dds_entity_t wire_participant_create(uint32_t domain)
-{
-    return wire_participant_create_secured(domain, NULL);
-}
-
-dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security)
+static dds_entity_t create_participant(uint32_t domain, const char *security, enum wire_side side)
 {
     if (!has_descriptors())
         return WIRE_NO_DESCRIPTORS;
     if (!has_address_space())
         return WIRE_NO_ADDRESS_SPACE;
-    dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain);
+    dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain, side);
     if (made < 0)
-        return find_reason(domain, made);
+        return find_reason(domain, side, made);
     dds_qos_t *qos = security ? dds_create_qos() : NULL;
     if (qos)
         wire_security_set(security, qos);
@@ -135,7 +131,7 @@ dds_entity_t wire_participant_create_secured(uint32_t domain, const char *securi
         return participant;
     /* what the plugins find wrong is no more than an error to DDS, and a line in its log */
     return security && participant == DDS_RETCODE_ERROR ? DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
-                                                        : find_reason(domain, participant);
+                                                        : find_reason(domain, side, participant);
 }
 
 /* That other processes have all of the built-in configuration. */
@@ -143,11 +139,11 @@ static void say_no_index(char *text, size_t size)
 {
     const unsigned last = WIRE_LOOPBACK_INDICES - 1;
     snprintf(text, size,
-             "other processes of this machine have participant indices 0 to %u of domain %u (UDP "
+             "other processes of this machine have participant indices %u to %u of domain %u (UDP "
              "ports %u to %u), one each, and there are no more: end some of them, or give all of "
              "them a CYCLONEDDS_URI (config/cyclonedds.xml is a beginning) with a higher "
              "Discovery/MaxAutoParticipantIndex than %u",
-             last, failed.domain, wire_ports_of_index(failed.domain, 0),
+             failed.first, last, failed.domain, wire_ports_of_index(failed.domain, failed.first),
              wire_ports_of_index(failed.domain, last) + 1, WIRE_LOOPBACK_INDICES);
 }
 
@@ -165,6 +161,21 @@ static void say_configured_badly(char *text, size_t size)
                  "them all: Discovery/MaxAutoParticipantIndex, %d unless it is set, has to be "
                  "higher for all of them",
                  DDS_INDICES);
+}
+
+dds_entity_t wire_participant_create(uint32_t domain)
+{
+    return create_participant(domain, NULL, WIRE_SERVER);
+}
+
+dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security)
+{
+    return create_participant(domain, security, WIRE_SERVER);
+}
+
+dds_entity_t wire_participant_create_client(uint32_t domain, const char *security)
+{
+    return create_participant(domain, security, WIRE_CLIENT);
 }
 
 const char *wire_participant_problem(dds_return_t code)

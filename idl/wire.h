@@ -37,14 +37,17 @@ enum {
 };
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
- * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),
- * unless the process has the domain already. Returns the entity or a negative DDS return code,
- * for wire_participant_problem. */
+ * configuration: processes of this machine, which hear nobody else (wire_loopback.h), unless the
+ * process has the domain already. Returns the entity or a negative DDS return code, for
+ * wire_participant_problem. */
 dds_entity_t wire_participant_create(uint32_t domain);
 
 /* The same with DDS Security: as the identity whose folder `security` is, which wire_security_check
  * has found good; NULL: without. */
 dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security);
+
+/* The same for a client, which asks servers and has nothing to do with other clients. */
+dds_entity_t wire_participant_create_client(uint32_t domain, const char *security);
 
 /* Whether CYCLONEDDS_URI configures the network, so that other machines may be heard. */
 bool wire_is_configured(void);

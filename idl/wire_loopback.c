@@ -7,13 +7,13 @@
 #include <dirent.h>
 #include <linux/filter.h>
 #include <netinet/in.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
 enum {
-    HIGHEST_INDEX = WIRE_LOOPBACK_INDICES,
     MOST_SOCKETS = 64,
     DRAIN_ATTEMPTS = 1000,
 };
@@ -21,11 +21,38 @@ enum {
 /* From the last word of a process until it is forgotten: below 2 s with what a client waits then
  * for a standby's answer, 0.2 s. The daemon announces its state each second, which renews it. */
 static const dds_duration_t LEASE = DDS_MSECS(1700);
+/* The same of a client, which nobody follows: what it asked is given up. It speaks twice in it. */
+static const dds_duration_t LEASE_OF_CLIENT = DDS_SECS(3);
+
+static uint32_t first_port(uint32_t domain)
+{
+    return 7400 + 250 * domain + 10; /* RTPS 9.6.1.1 */
+}
+
+/* A client announces itself where servers are, and not to other clients: all of them would answer,
+ * and renew its lease, and each of its own, for nothing. Its process takes a port behind theirs. */
+static void be_client(uint32_t domain, struct ddsi_config *config)
+{
+    /* DDS reads them while it makes a domain, one at a time */
+    static struct ddsi_config_peer_listelem peers[WIRE_LOOPBACK_CLIENTS];
+    static char addresses[WIRE_LOOPBACK_CLIENTS][sizeof "127.0.0.1:65535"];
+    for (int i = 0; i < WIRE_LOOPBACK_CLIENTS; i++) {
+        snprintf(addresses[i], sizeof addresses[i], "127.0.0.1:%u",
+                 (first_port(domain) + 2 * (uint32_t)i) & UINT16_MAX);
+        peers[i] = (struct ddsi_config_peer_listelem){
+            .next = i + 1 < WIRE_LOOPBACK_CLIENTS ? &peers[i + 1] : NULL, .peer = addresses[i]};
+    }
+    config->peers = peers;
+    config->ports.d1 += 2 * WIRE_LOOPBACK_CLIENTS;
+    config->ports.d3 += 2 * WIRE_LOOPBACK_CLIENTS;
+    config->maxAutoParticipantIndex = WIRE_LOOPBACK_INDICES - WIRE_LOOPBACK_CLIENTS;
+    config->lease_duration = LEASE_OF_CLIENT;
+}
 
 /* Loopback has no multicast, so peers are addressed by port: one index per process. Deaf at first:
  * Cyclone DDS receives at any address of the machine, whatever its interface is, until its sockets
  * have a filter. */
-static dds_entity_t create_deaf(uint32_t domain)
+static dds_entity_t create_deaf(uint32_t domain, enum wire_side side)
 {
     static struct ddsi_config_network_interface_listelem interface = {
         .cfg = {.address = "127.0.0.1",
@@ -39,8 +66,11 @@ static dds_entity_t create_deaf(uint32_t domain)
     config.allowMulticast = DDSI_AMC_FALSE;
     config.peers = &peer;
     config.participantIndex = DDSI_PARTICIPANT_INDEX_AUTO;
-    config.maxAutoParticipantIndex = HIGHEST_INDEX;
+    /* which addresses peers up to the one before it */
+    config.maxAutoParticipantIndex = WIRE_LOOPBACK_INDICES;
     config.lease_duration = LEASE;
+    if (side == WIRE_CLIENT)
+        be_client(domain, &config);
     config.initial_deaf = 1;
     config.initial_deaf_mute_reset = DDS_INFINITY;
     return dds_create_domain_with_rawconfig(domain, &config);
@@ -53,10 +83,10 @@ struct sockets {
     size_t count;
 };
 
-/* RTPS 9.6.1.1: unicast ports of the processes of a domain. */
+/* Unicast ports of the processes of a domain. */
 static bool is_ours(int file, uint32_t domain)
 {
-    const uint32_t first = 7400 + 250 * domain + 10, last = first + 1 + 2 * HIGHEST_INDEX;
+    const uint32_t first = first_port(domain), last = first + 1 + 2 * WIRE_LOOPBACK_INDICES;
     struct sockaddr_in address = {0};
     socklen_t size = sizeof address;
     return getsockname(file, (struct sockaddr *)&address, &size) == 0 &&
@@ -133,11 +163,11 @@ static bool close_to_others(uint32_t domain, const struct sockets *before)
     return filtered > 0;
 }
 
-dds_entity_t wire_loopback_create(uint32_t domain)
+dds_entity_t wire_loopback_create(uint32_t domain, enum wire_side side)
 {
     struct sockets before;
     bool listed = list_sockets(domain, &before);
-    dds_entity_t created = create_deaf(domain);
+    dds_entity_t created = create_deaf(domain, side);
     if (created < 0)
         return created;
     if (!listed || !close_to_others(domain, &before)) {

@@ -59,11 +59,11 @@ unsigned wire_ports_of_index(uint32_t domain, unsigned index)
 }
 
 /* One of the two is enough to keep others from an index. */
-unsigned wire_ports_indices(const struct wire_ports *ports, uint32_t domain)
+unsigned wire_ports_indices(const struct wire_ports *ports, uint32_t domain, unsigned first)
 {
-    unsigned index = 0, port;
+    unsigned index = first, port;
     while ((port = wire_ports_of_index(domain, index)) + 1 < WIRE_PORTS_COUNT &&
            (ports->bound[port] || ports->bound[port + 1]))
         index++;
-    return index;
+    return index - first;
 }

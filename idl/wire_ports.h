@@ -38,8 +38,8 @@ bool wire_ports_read_own(struct wire_ports *ports);
 /* Whether a participant of the domain is there. */
 bool wire_ports_have(const struct wire_ports *ports, uint32_t domain);
 
-/* How many participant indices of the domain are taken, from 0 on without a gap. */
-unsigned wire_ports_indices(const struct wire_ports *ports, uint32_t domain);
+/* How many participant indices of the domain are taken, from `first` on without a gap. */
+unsigned wire_ports_indices(const struct wire_ports *ports, uint32_t domain, unsigned first);
 
 /* The first of the two ports of a participant index. */
 unsigned wire_ports_of_index(uint32_t domain, unsigned index);

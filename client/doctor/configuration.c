@@ -164,16 +164,17 @@ static void tell(const char *log, unsigned taken, struct findings *findings)
 
 static void look_at_built_in(unsigned taken, struct findings *findings)
 {
+    enum { INDICES = WIRE_LOOPBACK_INDICES - WIRE_LOOPBACK_CLIENTS };
+    const bool few = 10 * taken >= 9 * INDICES;
     findings_add(findings, FINDING_OK, SUBJECT, NULL,
                  "%s is not set: the built-in one: 127.0.0.1 alone, no multicast", VARIABLE);
-    findings_add(
-        findings, 10 * taken >= 9 * WIRE_LOOPBACK_INDICES ? FINDING_WARNING : FINDING_OK, "indices",
-        10 * taken >= 9 * WIRE_LOOPBACK_INDICES
-            ? "end processes, or give all of them a CYCLONEDDS_URI with "
-              "Discovery/MaxAutoParticipantIndex above 100"
-            : NULL,
-        "%u of %u participant indices of the domain are taken, one by each process",
-        taken < WIRE_LOOPBACK_INDICES ? taken : WIRE_LOOPBACK_INDICES, WIRE_LOOPBACK_INDICES);
+    findings_add(findings, few ? FINDING_WARNING : FINDING_OK, "indices",
+                 few ? "end processes, or give all of them a CYCLONEDDS_URI with "
+                       "Discovery/MaxAutoParticipantIndex above 119"
+                     : NULL,
+                 "%u of the %d participant indices of clients are taken in the domain, one by each "
+                 "process",
+                 taken < INDICES ? taken : INDICES, INDICES);
 }
 
 void configuration_look(const struct watched *end, unsigned taken, struct findings *findings)

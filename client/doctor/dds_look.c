@@ -23,7 +23,7 @@ struct membership {
 static int join(void *context)
 {
     const struct membership *membership = context;
-    return wire_participant_create_secured(membership->domain, membership->security);
+    return wire_participant_create_client(membership->domain, membership->security);
 }
 
 bool dds_look_open(uint32_t domain, const char *partition, const char *security,

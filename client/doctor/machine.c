@@ -13,6 +13,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "wire.h"
+#include "wire_loopback.h"
+
 struct interfaces {
     char text[800];
     size_t length;
@@ -109,7 +112,9 @@ bool machine_multicasts(const char *address)
 unsigned machine_indices(uint32_t domain)
 {
     struct wire_ports *ports = malloc(sizeof *ports);
-    unsigned taken = ports && wire_ports_read_own(ports) ? wire_ports_indices(ports, domain) : 0;
+    unsigned first = wire_is_configured() ? 0 : WIRE_LOOPBACK_CLIENTS;
+    bool read = ports && wire_ports_read_own(ports);
+    unsigned taken = read ? wire_ports_indices(ports, domain, first) : 0;
     free(ports);
     return taken;
 }

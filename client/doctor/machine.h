@@ -15,7 +15,7 @@ void machine_look_at_interfaces(bool network, struct findings *findings);
  * comes back within a moment. */
 bool machine_multicasts(const char *address);
 
-/* Participant indices of the domain that are taken, from 0 on. */
+/* Participant indices of clients that are taken in the domain, without a gap. */
 unsigned machine_indices(uint32_t domain);
 
 /* Finds the daemons that run here and have ports in the domain. `answered`: one of the domain has

@@ -87,7 +87,7 @@ static dds_entity_t participants_hold(uint32_t domain, const char *security)
     if (!shared)
         shared = create(domain, identity);
     if (shared && shared->holders == 0)
-        shared->entity = wire_participant_create_secured(domain, security);
+        shared->entity = wire_participant_create_client(domain, security);
     if (shared) {
         entity = shared->entity;
         if (entity > 0)
@@ -338,6 +338,12 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
         client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
         return failure_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
+    /* and when one comes that reads requests */
+    code = dds_set_status_mask(client->request_writer, DDS_PUBLICATION_MATCHED_STATUS);
+    if (code == DDS_RETCODE_OK)
+        code = dds_waitset_attach(client->waitset, client->request_writer, 0);
+    if (code < 0)
+        return failure_dds("status of the writer of " WIRE_TOPIC_REQUEST, code);
     watch_refusals(client);
     return PERCUSS_RESULT_OK;
 }

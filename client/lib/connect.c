@@ -358,6 +358,7 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
 
 static const double MATCH_POLL = 1e-3;       /* s */
 static const double DISCOVERY_SPREAD = 0.05; /* s between the discovery of one server and another */
+static const double LOOK_INTERVAL = 0.1;     /* s between looks for a server where there is none */
 static const double GRACE = 2.0; /* s until incompatible qualities of service are a verdict */
 
 static enum percuss_result unanswered(const char *server, double start)
@@ -602,15 +603,23 @@ static bool is_answered(const struct percuss_client *client, const void *subject
     return client->answering_count > *before;
 }
 
-/* Pings all servers and collects their answers, until another one comes or the next ping is due. */
+static bool is_in_sight(const struct percuss_client *client, const void *subject)
+{
+    return is_answered(client, subject) || servers_reading(client) > 0;
+}
+
+/* Pings all servers and collects their answers, until another one comes or the next ping is due.
+ * Where there is none it waits until one comes. */
 static enum percuss_result ping_all(struct search *search)
 {
     struct percuss_client *client = search->client;
+    const bool anybody = servers_reading(client) > 0;
+    const double until =
+        fmin(search->deadline, moment_now() + (anybody ? PING_INTERVAL : LOOK_INTERVAL));
     pthread_mutex_lock(&client->lock);
-    enum percuss_result result = ping_write(client, NULL);
-    double until = fmin(search->deadline, moment_now() + PING_INTERVAL);
+    enum percuss_result result = anybody ? ping_write(client, NULL) : PERCUSS_RESULT_OK;
     if (result == PERCUSS_RESULT_OK)
-        result = receive_until(client, is_answered, &search->count, until);
+        result = receive_until(client, anybody ? is_answered : is_in_sight, &search->count, until);
     search->count = client->answering_count;
     memcpy(search->answering, client->answering, sizeof search->answering);
     pthread_mutex_unlock(&client->lock);

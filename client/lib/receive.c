@@ -273,6 +273,14 @@ static bool has_gone(const struct percuss_client *client, dds_instance_handle_t 
     return !is_there(client, writer);
 }
 
+/* The one who waits looks for itself whether somebody reads requests, when it is woken: being read,
+ * the status no longer wakes. */
+static void note_readers(const struct percuss_client *client)
+{
+    dds_publication_matched_status_t matched;
+    dds_get_publication_matched_status(client->request_writer, &matched);
+}
+
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
@@ -291,6 +299,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     /* before arrived samples are taken: those of a server arrive before its loss is seen */
     bool newcomer = false;
     bool gone = triggered > 0 && has_gone(client, writer, &newcomer);
+    if (triggered > 0)
+        note_readers(client);
     if (triggered > 0)
         result = take_all(client, client->reply_reader, take_replies);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)

@@ -14,9 +14,7 @@
 
 #include "domain.h"
 
-enum { MOST_CHILDREN = 4 };
-
-static pid_t children[MOST_CHILDREN];
+static pid_t children[CHILDREN_MOST];
 static int count;
 
 uint32_t children_domain(void)
@@ -29,7 +27,7 @@ pid_t children_start(char *const arguments[])
 {
     if (count == 0)
         atexit(children_stop);
-    pid_t parent = getpid(), child = count < MOST_CHILDREN ? fork() : -1;
+    pid_t parent = getpid(), child = count < CHILDREN_MOST ? fork() : -1;
     if (child < 0) {
         fprintf(stderr, "%s: cannot be started\n", arguments[0]);
         exit(EXIT_FAILURE);

@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <sys/types.h>
 
+enum { CHILDREN_MOST = 256 };
+
 /* A random domain of this machine, locked until this process ends. Also makes sure that DDS stays
  * on the loopback interface, here and in the children. Ends the program if none is free. */
 uint32_t children_domain(void);

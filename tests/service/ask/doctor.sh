@@ -34,7 +34,7 @@ shows "ok       domain: $domain, by --domain"
 shows "ok       variables: neither PERCUSS_* nor CYCLONEDDS_URI are set"
 shows "ok       configuration: CYCLONEDDS_URI is not set: the built-in one: 127.0.0.1 alone, no multicast"
 # clients of other stories may look for a daemon here meanwhile
-shows " of 100 participant indices of the domain are taken"
+shows " of the 103 participant indices of clients are taken in the domain"
 shows "ok       participants: "
 shows "problem  daemon: no percussd in DDS domain $domain; "
 shows "; to do: start one with: "
@@ -189,13 +189,13 @@ fi
 
 say "no place for one more process"
 mkfifo "$work/hold"
-"$peers/take_ports" $((7410 + 250 * domain)) 200 <"$work/hold" >"$work/taken" 2>&1 9>&- &
+"$peers/take_ports" $((7410 + 250 * domain)) 238 <"$work/hold" >"$work/taken" 2>&1 9>&- &
 others=$!
 exec 7>"$work/hold"
 wait_for 20 grep -q bound "$work/taken" || fail "ports: $(cat "$work/taken")"
 doctor 3
-shows "warning  indices: 100 of 100 participant indices of the domain are taken, one by each process; to do: end processes"
-shows "problem  DDS: domain $domain cannot be joined: other processes of this machine have participant indices 0 to 99"
+shows "warning  indices: 103 of the 103 participant indices of clients are taken in the domain, one by each process; to do: end processes"
+shows "problem  DDS: domain $domain cannot be joined: other processes of this machine have participant indices 16 to 118"
 doctor 3 "$apart"
 shows "cannot be used: Failed to find a free participant index for domain $domain; to do: other processes have participant indices"
 exec 7>&-

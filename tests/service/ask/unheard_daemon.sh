@@ -98,19 +98,19 @@ gives_back() {
     others=
 }
 
-say "where 100 processes have all participant indices, it names them and the setting"
-takes 100
+say "where other processes have all participant indices, it names them and the setting"
+takes 119
 asks_with ""
-says "other processes of this machine have participant indices 0 to 99 of domain $domain (UDP ports"
-says "CYCLONEDDS_URI (config/cyclonedds.xml is a beginning) with a higher Discovery/MaxAutoParticipantIndex than 100"
+says "other processes of this machine have participant indices 16 to 118 of domain $domain (UDP ports"
+says "CYCLONEDDS_URI (config/cyclonedds.xml is a beginning) with a higher Discovery/MaxAutoParticipantIndex than 119"
 expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
-says "a higher Discovery/MaxAutoParticipantIndex than 100"
+says "a higher Discovery/MaxAutoParticipantIndex than 119"
 expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" --check-config
-says "percussd: domain: $domain: other processes of this machine have participant indices 0 to 99"
+says "percussd: domain: $domain: other processes of this machine have participant indices 0 to 118"
 gives_back
 
 say "and where there is one left it has it"
-takes 99
+takes 118
 # clients of other stories that look around may have it for a moment
 has_place() {
     asks_with ""

@@ -66,8 +66,8 @@ for act in "slow 60 --clients 2 --outstanding 256" "ensemble 60 --samples 200000
     kill -KILL "$others"
     wait "$others" 2>/dev/null || true
     others=
-    # the lease, and a moment for what is being solved
-    sleep 3.5
+    # a client's lease of 3 s, and a moment for what is being solved
+    sleep 5
     expect 0 percuss status --json
     [ "$(field queue_length)" = 0 ] || fail "$act: $(field queue_length) still wait"
     before=$(used)

@@ -47,12 +47,12 @@ static void the_domain_is_closed_and_nothing_else(void **state)
                                   .sin_port = htons((uint16_t)(7400 + 250 * domain + 10 + 2 * 50)),
                                   .sin_addr = {htonl(INADDR_ANY)}};
     assert_int_equal(bind(other, (struct sockaddr *)&address, sizeof address), 0);
-    dds_entity_t created = wire_loopback_create(domain);
+    dds_entity_t created = wire_loopback_create(domain, WIRE_SERVER);
     assert_true(created > 0);
     assert_int_equal(filter_length(other), 0);
     /* announcements and data */
     assert_int_equal(count_filtered(), 2);
-    assert_int_equal(wire_loopback_create(domain), DDS_RETCODE_PRECONDITION_NOT_MET);
+    assert_int_equal(wire_loopback_create(domain, WIRE_SERVER), DDS_RETCODE_PRECONDITION_NOT_MET);
     assert_int_equal(dds_delete(created), DDS_RETCODE_OK);
     close(other);
 }
@@ -71,12 +71,33 @@ static void participants_share_it(void **state)
     dds_delete(dds_get_parent(first));
 }
 
+/* Ports of a client lie behind those that clients announce themselves to: no two of them meet. */
+static void clients_are_behind_the_servers(void **state)
+{
+    (void)state;
+    int seen = 0;
+    dds_entity_t participant = wire_participant_create_client(domain, NULL);
+    assert_true(participant > 0);
+    for (int file = 0; file < MOST_FILES; file++) {
+        struct sockaddr_in address;
+        socklen_t size = sizeof address;
+        if (filter_length(file) <= 0 || getsockname(file, (struct sockaddr *)&address, &size) != 0)
+            continue;
+        assert_true(ntohs(address.sin_port) >= 7400 + 250 * domain + 10 + 2 * 16);
+        assert_true(ntohs(address.sin_port) < 7400 + 250 * (domain + 1));
+        seen++;
+    }
+    assert_int_equal(seen, 2);
+    dds_delete(dds_get_parent(participant));
+}
+
 int main(void)
 {
     unsetenv("CYCLONEDDS_URI");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_domain_is_closed_and_nothing_else),
         cmocka_unit_test(participants_share_it),
+        cmocka_unit_test(clients_are_behind_the_servers),
     };
     return cmocka_run_group_tests(tests, choose_domain, NULL);
 }

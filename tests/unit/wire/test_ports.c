@@ -85,8 +85,10 @@ static void test_indices_are_counted_to_the_first_gap(void **state)
 {
     (void)state;
     look(INDICES, NULL);
-    assert_int_equal(wire_ports_indices(&ports, 20), 3);
-    assert_int_equal(wire_ports_indices(&ports, 21), 0);
+    assert_int_equal(wire_ports_indices(&ports, 20, 0), 3);
+    assert_int_equal(wire_ports_indices(&ports, 20, 2), 1);
+    assert_int_equal(wire_ports_indices(&ports, 20, 3), 0);
+    assert_int_equal(wire_ports_indices(&ports, 21, 0), 0);
     assert_int_equal(wire_ports_of_index(20, 3), 12416);
 }
 
