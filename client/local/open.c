@@ -100,8 +100,9 @@ static enum percuss_result load(struct percuss_client *client)
     };
     struct fault fault = {{0}};
     /* the catalogue, and the settings of its snapshots */
-    enum percuss_status status = snapshots_open(&client->snapshots, settings->catalogue,
-                                                &client->tables, settings->bodies, &fault);
+    enum percuss_status status =
+        snapshots_open(&client->snapshots, (size_t)settings->box_megabytes << 20,
+                       settings->catalogue, &client->tables, settings->bodies, &fault);
     if (status)
         return open_refuse(status, &fault);
     client->snapshot = snapshots_hold(&client->snapshots);

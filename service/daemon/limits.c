@@ -156,23 +156,46 @@ static unsigned least_of(unsigned megabytes, unsigned long long bytes)
     return megabytes < most ? megabytes : (unsigned)most;
 }
 
+unsigned limits_solving_threads(const struct settings *settings)
+{
+    /* those of both lanes, of tables, of ensembles and of specimens, and the reading one */
+    return 2 * settings->workers + 1 + 1 + ENSEMBLES + 1 + 1;
+}
+
+/* Has each of the four take no more than that. */
+static void limits_share(struct settings *settings, unsigned long long asked,
+                         unsigned long long prepared)
+{
+    settings->token_megabytes = least_of(settings->token_megabytes, asked);
+    settings->reply_megabytes = least_of(settings->reply_megabytes, asked);
+    settings->box_megabytes = least_of(settings->box_megabytes, prepared);
+    settings->body_megabytes = least_of(settings->body_megabytes, prepared);
+}
+
 bool limits_fit_caches(struct settings *settings, unsigned long long memory,
                        unsigned long long address_space)
 {
-    unsigned tokens = settings->token_megabytes, replies = settings->reply_megabytes;
-    /* half of the memory is left for solving; the caches share the address space that is left */
-    if (memory) {
-        settings->token_megabytes = least_of(settings->token_megabytes, memory / 4);
-        settings->reply_megabytes = least_of(settings->reply_megabytes, memory / 4);
+    enum { EACH_THREAD = 32 }; /* MiB: the catalogue's bodies, and those of a calibration */
+    settings->body_megabytes = EACH_THREAD * limits_solving_threads(settings);
+    const struct settings before = *settings;
+    if (settings->limit_megabytes) {
+        const unsigned long long quarter = settings->limit_megabytes * MIB / 4;
+        settings->box_megabytes = settings->body_megabytes = (unsigned)(quarter / MIB);
+        limits_share(settings, quarter, quarter);
     }
+    /* a quarter of the memory is left for solving; they share the address space that is left */
+    if (memory)
+        limits_share(settings, memory / 4, memory / 8);
     if (address_space) {
         unsigned long long needed = KIB * limits_address_space(settings, limits_stack_size());
         unsigned long long rest = address_space > needed ? address_space - needed : 0;
         /* BASE has the smallest ones in it */
-        settings->token_megabytes = least_of(settings->token_megabytes, 8 * MIB + rest / 2);
-        settings->reply_megabytes = least_of(settings->reply_megabytes, 8 * MIB + rest / 2);
+        limits_share(settings, 8 * MIB + rest / 4, 8 * MIB + rest / 4);
     }
-    return tokens != settings->token_megabytes || replies != settings->reply_megabytes;
+    return settings->limit_megabytes || before.token_megabytes != settings->token_megabytes ||
+           before.reply_megabytes != settings->reply_megabytes ||
+           before.box_megabytes != settings->box_megabytes ||
+           before.body_megabytes != settings->body_megabytes;
 }
 
 void limits_fit(struct settings *settings)
@@ -184,14 +207,18 @@ void limits_fit(struct settings *settings)
         mallopt(M_ARENA_MAX, HEAPS);
     if (!limits_fit_caches(settings, memory, address_space))
         return;
-    char group[64] = "", space[64] = "";
+    char group[64] = "", space[64] = "", kept[64] = "";
     if (memory)
         snprintf(group, sizeof group, " %llu MiB by its control group", memory / MIB);
     if (address_space)
         snprintf(space, sizeof space, "%s %llu MiB of address space", memory ? "," : "",
                  address_space / MIB);
+    if (settings->limit_megabytes)
+        snprintf(kept, sizeof kept, "%s %u MiB by limits.megabytes",
+                 memory || address_space ? "," : "", settings->limit_megabytes);
     log_line(LEVEL_INFO,
-             "memory: the process may have%s%s: tokens.megabytes %u of %u, replies.megabytes "
-             "%u of %u",
-             group, space, settings->token_megabytes, tokens, settings->reply_megabytes, replies);
+             "memory: the process may have%s%s%s: tokens.megabytes %u of %u, replies.megabytes "
+             "%u of %u, vibrations %u, prepared bodies %u",
+             group, space, kept, settings->token_megabytes, tokens, settings->reply_megabytes,
+             replies, settings->box_megabytes, settings->body_megabytes);
 }

@@ -13,7 +13,7 @@
  * descriptors is raised as far as the hard one allows. */
 enum percuss_status limits_check(const struct settings *settings, struct fault *fault);
 
-/* Has the caches of states and replies, and the allocator, keep to the memory that the control
+/* Has the caches, and the allocator, keep to limits.megabytes and to the memory that the control
  * group and the process may have, and logs that. Before there are threads. */
 void limits_fit(struct settings *settings);
 
@@ -29,8 +29,11 @@ unsigned long long limits_cgroup(const char *root, const char *membership);
 /* KiB of address space that a daemon of these settings needs, with threads of so large a stack. */
 unsigned long long limits_address_space(const struct settings *settings, size_t stack);
 
-/* The caches' megabytes with so many bytes of memory and of address space (0: no limit). True: they
- * are fewer than the settings say. */
+/* Threads that may solve, each with bodies that it has prepared. */
+unsigned limits_solving_threads(const struct settings *settings);
+
+/* The caches' megabytes with so many bytes of memory and of address space (0: no limit). True: one
+ * of them is told so, or there is a limit for their sum. */
 bool limits_fit_caches(struct settings *settings, unsigned long long memory,
                        unsigned long long address_space);
 

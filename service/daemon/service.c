@@ -3,6 +3,7 @@
 
 #include "daemon/service.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +29,10 @@ static const size_t READER_MEMORY = 8 * 1024 * 1024;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
 /* So often bodies in use are marked, for other daemons with the same folder. */
 static const double TIDY_SECONDS = 86400.0;
+/* Free bytes between others that the allocator may keep; and how often they are given back, as the
+ * next requests take them from the system again. */
+static const size_t SLACK = 64 * 1024 * 1024;
+static const double TRIM_SECONDS = 60.0;
 /* Smaller steps of the time of day are not logged. */
 static const double TOLD_SECONDS = 1.0;
 
@@ -43,6 +48,8 @@ struct service {
     struct reducer reducer;
     struct identity identity;
     struct wire_clock clock;     /* the main thread's */
+    size_t resident;             /* bytes, at the first tick */
+    double trimmed;              /* the allocator; monotonic, s */
     double tidied;               /* the folder of bodies; monotonic, s */
     bool metrics_fail;           /* as the log says */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
@@ -317,6 +324,19 @@ static void look_at_clock(struct service *service)
                  step < 0.0 ? ": clients may have missed this daemon for a second" : "");
 }
 
+/* What is dropped is free for other requests, and not for other programs. */
+static void look_at_memory(struct service *service, double now)
+{
+    const size_t resident = status_resident_bytes();
+    if (service->resident == 0)
+        service->resident = resident;
+    if (now - service->trimmed < TRIM_SECONDS ||
+        resident < service->resident + status_kept_bytes(&service->shared) + SLACK)
+        return;
+    service->trimmed = now;
+    malloc_trim(0);
+}
+
 void service_tick(struct service *service)
 {
     struct shared *shared = &service->shared;
@@ -327,6 +347,7 @@ void service_tick(struct service *service)
         tidy_bodies(service);
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
+    look_at_memory(service, now);
     log_sum_up(false);
     unsigned long long undelivered = atomic_load(&shared->undelivered);
     if (undelivered > service->reported)

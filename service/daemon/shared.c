@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "daemon/limits.h"
 #include "daemon/log.h"
 #include "daemon/pool.h"
 #include "daemon/queue.h"
@@ -180,11 +181,15 @@ bool shared_create(struct shared *shared, const struct settings *settings, struc
 {
     shared->settings = settings;
     shared->started = clock_now();
+    shared->prepared.most_each =
+        settings->body_megabytes
+            ? (size_t)(settings->body_megabytes * MEGABYTE) / limits_solving_threads(settings)
+            : SIZE_MAX;
     ensembles_create(&shared->ensembles);
     activity_create(&shared->activity);
     activity_create(&shared->reduction);
-    if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, settings->bodies,
-                       fault))
+    if (snapshots_open(&shared->snapshots, (size_t)(settings->box_megabytes * MEGABYTE),
+                       settings->catalogue, &shared->tables, settings->bodies, fault))
         return false;
     /* readers of the status may have another working folder */
     if (!realpath(settings->catalogue, shared->catalogue))
@@ -237,6 +242,7 @@ struct responder *shared_responder(struct shared *shared, enum lane lane)
 {
     struct respond_means means = {
         .tokens = shared->tokens,
+        .account = &shared->prepared,
         .limit = shared->settings->limit_seconds,
         .beat = heartbeat_beat,
         .complain = shared_complain,

@@ -98,6 +98,7 @@ struct shared {
     /* for any thread: each has a lock of its own */
     struct snapshots snapshots;
     struct token_store *tokens;
+    struct solve_account prepared; /* bodies of the threads that solve */
     struct reply_store *replies;
     struct table_cache tables;
     struct ensembles ensembles; /* in their lane */

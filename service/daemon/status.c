@@ -17,6 +17,7 @@
 #include "daemon/specimen_lane.h"
 #include "exchange/clock.h"
 #include "exchange/text.h"
+#include "model/ritz_store.h"
 
 /* Whether a task stands before another one. */
 static bool task_precedes(const struct task *task, const struct task *other)
@@ -205,21 +206,75 @@ static void metrics_print_state(struct shared *shared, FILE *file)
             atomic_load(&shared->undelivered));
 }
 
-/* Under the names that every exporter uses. */
-static void metrics_print_process(FILE *file)
+/* A part of what is kept from one request to the next, and the most that it may be. */
+struct kept {
+    const char *what;
+    size_t bytes;
+    unsigned most; /* MiB */
+};
+enum { KEPT_PARTS = 4 };
+
+static void list_kept(struct shared *shared, struct kept kept[KEPT_PARTS])
 {
-    struct rusage used;
+    const struct settings *settings = shared->settings;
+    struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    kept[0] = (struct kept){"states", token_store_bytes(shared->tokens), settings->token_megabytes};
+    kept[1] =
+        (struct kept){"replies", reply_store_bytes(shared->replies), settings->reply_megabytes};
+    kept[2] = (struct kept){"vibrations", ritz_store_bytes(snapshot->set->boxes),
+                            settings->box_megabytes};
+    kept[3] =
+        (struct kept){"bodies", atomic_load(&shared->prepared.bytes), settings->body_megabytes};
+    snapshots_release(&shared->snapshots, snapshot);
+}
+
+size_t status_kept_bytes(struct shared *shared)
+{
+    struct kept kept[KEPT_PARTS];
+    size_t bytes = 0;
+    list_kept(shared, kept);
+    for (int i = 0; i < KEPT_PARTS; i++)
+        bytes += kept[i].bytes;
+    return bytes;
+}
+
+static void metrics_print_kept(struct shared *shared, FILE *file)
+{
+    struct kept kept[KEPT_PARTS];
+    list_kept(shared, kept);
+    fputs("# HELP percuss_kept_bytes Kept from one request to the next.\n"
+          "# TYPE percuss_kept_bytes gauge\n",
+          file);
+    for (int i = 0; i < KEPT_PARTS; i++)
+        fprintf(file, "percuss_kept_bytes{what=\"%s\"} %zu\n", kept[i].what, kept[i].bytes);
+    fputs("# HELP percuss_kept_limit_bytes The most that it may be.\n"
+          "# TYPE percuss_kept_limit_bytes gauge\n",
+          file);
+    for (int i = 0; i < KEPT_PARTS; i++)
+        fprintf(file, "percuss_kept_limit_bytes{what=\"%s\"} %.15g\n", kept[i].what,
+                1048576.0 * kept[i].most);
+}
+
+size_t status_resident_bytes(void)
+{
     unsigned long pages = 0;
-    FILE *memory = fopen("/proc/self/statm", "r");
+    FILE *memory = fopen("/proc/self/statm", "re");
     if (memory && fscanf(memory, "%*u %lu", &pages) != 1)
         pages = 0;
     if (memory)
         fclose(memory);
+    return pages * (size_t)sysconf(_SC_PAGESIZE);
+}
+
+/* Under the names that every exporter uses. */
+static void metrics_print_process(FILE *file)
+{
+    struct rusage used;
     getrusage(RUSAGE_SELF, &used);
     double seconds = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                      1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     metrics_print_gauge(file, "process_resident_memory_bytes", "Memory that is in use.",
-                        (double)pages * (double)sysconf(_SC_PAGESIZE));
+                        (double)status_resident_bytes());
     fprintf(file,
             "# HELP process_cpu_seconds Processor time.\n# TYPE process_cpu_seconds counter\n"
             "process_cpu_seconds_total %.6f\n",
@@ -232,6 +287,7 @@ static bool metrics_print_all(struct shared *shared, FILE *file)
     metrics_print_queues(shared, file);
     metrics_print_replies(&shared->metrics, file);
     metrics_print_histograms(&shared->metrics, file);
+    metrics_print_kept(shared, file);
     metrics_print_process(file);
     fputs("# EOF\n", file);
     bool good = !ferror(file);

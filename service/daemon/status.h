@@ -19,6 +19,11 @@ void status_describe(struct shared *shared, char *text, size_t size);
  * its place, so that no reader finds half of one. False with a fault. */
 bool status_write_metrics(struct shared *shared, const char *path, struct fault *fault);
 
+/* Bytes that are kept from one request to the next, and resident ones of the process. Any thread.
+ */
+size_t status_kept_bytes(struct shared *shared);
+size_t status_resident_bytes(void);
+
 enum { TASKS_LISTED = 16 };
 
 struct tasks {

@@ -251,3 +251,11 @@ size_t token_store_count(struct token_store *store)
     pthread_mutex_unlock(&store->lock);
     return count;
 }
+
+size_t token_store_bytes(struct token_store *store)
+{
+    pthread_mutex_lock(&store->lock);
+    size_t bytes = store->bytes;
+    pthread_mutex_unlock(&store->lock);
+    return bytes;
+}

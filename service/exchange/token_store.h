@@ -45,7 +45,8 @@ void token_store_release(struct token_store *store, const struct body_state *sta
 /* Drops expired states. */
 void token_store_sweep(struct token_store *store, double now);
 
-/* Number of states that can be asked for. */
+/* Number of states that can be asked for, and their bytes. */
 size_t token_store_count(struct token_store *store);
+size_t token_store_bytes(struct token_store *store);
 
 #endif

@@ -24,6 +24,7 @@ struct responder *responder_create(const struct respond_means *means)
         return NULL;
     }
     responder->means = *means;
+    solve_workspace_join(responder->workspace, means->account);
     table_maker_init(&responder->maker, &means->tables, means->limit);
     return responder;
 }

@@ -15,10 +15,11 @@
 
 /* The means to answer. */
 struct respond_means {
-    struct token_store *tokens; /* borrowed */
-    double limit;               /* of the time for one request, s */
-    struct table_wait tables;   /* while one is computed; without goes_on none are */
-    void (*beat)(void);         /* once a millisecond of a solve; may be NULL */
+    struct token_store *tokens;    /* borrowed */
+    struct solve_account *account; /* borrowed: of prepared bodies; NULL: they are not bounded */
+    double limit;                  /* of the time for one request, s */
+    struct table_wait tables;      /* while one is computed; without goes_on none are */
+    void (*beat)(void);            /* once a millisecond of a solve; may be NULL */
     /* an answer is INTERNAL; may be NULL */
     void (*complain)(const struct envelope *envelope, const char *text);
 };

@@ -12,6 +12,7 @@
 
 #include "catalogue/reader.h"
 #include "ensemble/spec.h"
+#include "model/ritz_store.h"
 
 enum kind {
     KIND_WHOLE,
@@ -60,6 +61,11 @@ static const struct setting table[] = {
      "samples of one ensemble"},
     {"limits.clients", KIND_WHOLE, AT(limit_clients), 1, 65536, NULL,
      "clients that may be there at once; those of one process take at most half of the places"},
+    {"limits.megabytes", KIND_WHOLE, AT(limit_megabytes), 16, 4194304,
+     "none: vibrations have 256, bodies 32 for each thread",
+     "megabytes of all that is kept from one request to the next: a quarter each for states, "
+     "replies, vibrations of blocks and cylinders, and bodies that the solving threads have "
+     "prepared"},
     {"tokens.count", KIND_WHOLE, AT(token_count), 1, 10000000, NULL,
      "state tokens that are kept, those used last"},
     {"tokens.megabytes", KIND_WHOLE, AT(token_megabytes), 1, 1048576, NULL,
@@ -121,6 +127,7 @@ struct settings settings_default(void)
         .token_minutes = 10.0,
         .replies_per_client = 1024,
         .reply_megabytes = 256,
+        .box_megabytes = RITZ_STORE_BYTES >> 20,
         .stored_replies = 16384,
         .session_minutes = 10.0,
         .drain_seconds = 30.0,

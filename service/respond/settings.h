@@ -43,11 +43,14 @@ struct settings {
     bool inline_solves;
     double limit_seconds;                  /* of one request */
     unsigned limit_samples, limit_clients; /* of one ensemble; that read replies */
+    unsigned limit_megabytes;              /* of all that is kept; 0: as its parts have it */
     unsigned token_count, token_megabytes;
     double token_minutes;
     unsigned replies_per_client, reply_megabytes;
-    char store[SETTINGS_PATH_SIZE];  /* empty: no specimens */
-    char backup[SETTINGS_PATH_SIZE]; /* of the store; empty: none */
+    unsigned box_megabytes, body_megabytes; /* of vibrations, and of prepared bodies; 0: no limit.
+                                               No keys of their own: limits_fit has them fit */
+    char store[SETTINGS_PATH_SIZE];         /* empty: no specimens */
+    char backup[SETTINGS_PATH_SIZE];        /* of the store; empty: none */
     unsigned stored_replies;
     char standby[SETTINGS_PATH_SIZE]; /* the daemon with its lock answers; empty: this one */
     char metrics[SETTINGS_PATH_SIZE]; /* file for a monitoring system; empty: none */

@@ -28,13 +28,13 @@ static enum percuss_status snapshot_load(const char *path, const char *folder,
     return PERCUSS_OK;
 }
 
-enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
+enum percuss_status snapshots_open(struct snapshots *snapshots, size_t bytes, const char *path,
                                    struct table_cache *tables, const char *folder,
                                    struct fault *fault)
 {
     pthread_mutex_init(&snapshots->lock, NULL);
     snapshots->folder = folder[0] ? folder : NULL;
-    struct ritz_store *boxes = ritz_store_create(RITZ_STORE_BYTES);
+    struct ritz_store *boxes = ritz_store_create(bytes);
     enum percuss_status status =
         boxes ? snapshot_load(path, snapshots->folder, tables, boxes, &snapshots->current, fault)
               : fault_set(fault, PERCUSS_INTERNAL, "out of memory");

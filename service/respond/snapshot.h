@@ -26,9 +26,9 @@ struct snapshots {
     struct snapshot *current; /* under the lock; NULL: none was read */
 };
 
-/* Reads the first catalogue, with reduced bodies from a folder (borrowed; empty: none). Its status
- * is the catalogue's. */
-enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
+/* Has vibrations of blocks and cylinders take up to `boxes` bytes, and reads the first catalogue,
+ * with reduced bodies from a folder (borrowed; empty: none). Its status is the catalogue's. */
+enum percuss_status snapshots_open(struct snapshots *snapshots, size_t boxes, const char *path,
                                    struct table_cache *tables, const char *folder,
                                    struct fault *fault);
 void snapshots_close(struct snapshots *snapshots);

@@ -51,6 +51,7 @@ static bool arena_make_room(struct arena *arena, size_t bytes)
     struct arena_block *block = block_create(aligned(bytes + 1));
     if (!block)
         return false;
+    arena->held += block->size;
     if (arena->current)
         arena->current->next = block;
     else

@@ -15,6 +15,7 @@ struct arena {
     struct arena_block *current;
     unsigned char *next; /* free part of the current block, */
     size_t left;         /* its bytes, a multiple of the alignment */
+    size_t held;         /* bytes of all blocks */
     bool lacks;          /* memory was out since the last reset: results may be incomplete */
 };
 

@@ -303,9 +303,11 @@ const double *flight_table(struct oscillators *set, int level)
         struct flight_modes modes = {.length = set->stride,
                                      .damping = set->most_damping > 0.0 ? set->damping : NULL,
                                      .omega = set->omega};
-        double *table = aligned_alloc(32, (set->stride + LANES) * TURN_TERMS * sizeof *table);
+        const size_t bytes = (set->stride + LANES) * TURN_TERMS * sizeof(double);
+        double *table = aligned_alloc(32, bytes);
         if (!table)
             return NULL;
+        set->bytes += bytes;
         flight_kernel_table(&modes, step_length(level), table);
         set->turns[level] = table;
     }

@@ -26,6 +26,7 @@ static struct oscillators *allocate(size_t count)
     }
     memset(set->omega, 0, 2 * length * sizeof *set->omega);
     set->damping = set->omega + length;
+    set->bytes = sizeof *set + 2 * length * sizeof *set->omega;
     return set;
 }
 
@@ -67,6 +68,11 @@ void oscillators_free(struct oscillators *set)
     free(set);
 }
 
+size_t oscillators_bytes(const struct oscillators *set)
+{
+    return set ? set->bytes + oscillators_bytes(set->undamped) : 0;
+}
+
 struct oscillators *oscillators_part(struct oscillators *whole, const size_t *which, size_t count)
 {
     struct oscillators *part = allocate(count);
@@ -82,6 +88,7 @@ struct oscillators *oscillators_part(struct oscillators *whole, const size_t *wh
     }
     part->whole = whole;
     part->which = kept;
+    part->bytes += (count + 1) * sizeof *kept;
     return part;
 }
 
@@ -101,8 +108,10 @@ static size_t array_count(bool damped)
 }
 
 /* One block: the table, then its arrays, each `stride` long and aligned. */
-static struct step_table *table_allocate(size_t stride, bool damped)
+static struct step_table *table_allocate(struct oscillators *set)
 {
+    const size_t stride = set->stride;
+    const bool damped = set->most_damping > 0.0;
     /* zero throughout: the modes that only fill the last lanes never move */
     size_t together = RESPONSE_TERMS + (damped ? 0 : MIDDLE_TERMS);
     size_t arrays = array_count(damped) + together;
@@ -112,6 +121,7 @@ static struct step_table *table_allocate(size_t stride, bool damped)
     if (!block)
         return NULL;
     memset(block, 0, bytes);
+    set->bytes += bytes;
     struct step_table *table = (struct step_table *)block;
     double *next = (double *)(block + header);
     /* arrays in the order of the table */
@@ -316,7 +326,7 @@ static void gather(struct step_table *table, const struct oscillators *part, int
 static const struct step_table *table_of_first(struct oscillators *set, size_t count, int level)
 {
     if (!set->tables[level])
-        set->tables[level] = table_allocate(set->stride, set->most_damping > 0.0);
+        set->tables[level] = table_allocate(set);
     struct step_table *table = set->tables[level];
     const size_t range[] = {set->filled[level], count};
     if (!table || range[0] >= count)

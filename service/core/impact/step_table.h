@@ -60,6 +60,7 @@ struct oscillators {
     struct oscillators *undamped;           /* the same frequencies; NULL: not made yet */
     struct oscillators *whole;              /* the set of which this is a part; NULL: none */
     size_t *which;                          /* [count] of a part: index in the whole */
+    size_t bytes;                           /* of all this but `undamped` */
 };
 
 /* Copies the frequencies; with one damping ratio for all, or one of each. NULL: out of memory. */
@@ -67,6 +68,9 @@ struct oscillators *oscillators_create(size_t count, const double *omega, double
 struct oscillators *oscillators_create_each(size_t count, const double *omega,
                                             const double *damping);
 void oscillators_free(struct oscillators *set);
+
+/* Bytes that a set holds with its tables; NULL: 0. */
+size_t oscillators_bytes(const struct oscillators *set);
 
 /* Those of `whole` with the indices which[0 .. count - 1], ascending. Their tables have the same
  * bits, gathered from the whole's, which must outlive them. NULL: out of memory. */

@@ -47,6 +47,7 @@ struct modal_family {
     void *shapes;       /* [count], further data of the family; NULL: none */
     size_t known;       /* modes that `find` has already; it may continue after them */
     void *walk;         /* state from which the search continues; NULL: none */
+    size_t bytes;       /* of all this */
 };
 
 /* The operations of a family. */

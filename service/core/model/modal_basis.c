@@ -35,6 +35,8 @@ static struct modal_family *modal_family_allocate(const struct mode_family *kind
     /* room for all of them */
     modes->family = family;
     modes->count = count;
+    modes->bytes = sizeof *modes + kind->walk_size +
+                   (count + 1) * (sizeof *modes->omega + sizeof *modes->odd + kind->shape_size);
     modes->omega = calloc(count + 1, sizeof *modes->omega);
     modes->odd = calloc(count + 1, sizeof *modes->odd);
     if (kind->shape_size)

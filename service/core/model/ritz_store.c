@@ -266,6 +266,16 @@ bool ritz_box_tensor(struct ritz_store *store, struct ritz_box *box, int axis, i
     return good;
 }
 
+size_t ritz_store_bytes(struct ritz_store *store)
+{
+    size_t bytes = 0;
+    store_take(store);
+    for (const struct ritz_box *box = store->boxes; box; box = box->next)
+        bytes += sizeof *box + (box->ritz ? ritz_size(box->ritz) : 0);
+    store_give_back(store);
+    return bytes;
+}
+
 unsigned long ritz_store_computed(struct ritz_store *store)
 {
     store_take(store);

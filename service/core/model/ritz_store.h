@@ -38,6 +38,9 @@ double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int 
 bool ritz_box_tensor(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                      const double point[3], double tensor[6]);
 
+/* Bytes of its vibrations. */
+size_t ritz_store_bytes(struct ritz_store *store);
+
 /* Number of vibrations computed so far. */
 unsigned long ritz_store_computed(struct ritz_store *store);
 

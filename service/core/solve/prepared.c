@@ -37,7 +37,9 @@ struct radiation {
 };
 
 struct entry {
-    struct entry *next;
+    struct entry *next, *next_touched;
+    bool touched;     /* asked for since it was counted */
+    size_t bytes;     /* as it was counted last */
     struct body body; /* a copy: its key, see body_same_modes */
     struct prepared_family *families[BODY_MOST_FAMILIES];
     struct remainder *remainders[BODY_MOST_FAMILIES];
@@ -75,6 +77,8 @@ struct prepared_cache {
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
     size_t varied;                   /* entries of varied bodies */
+    size_t bytes;                    /* of all entries, as they were counted last */
+    struct entry *touched;           /* what has to be counted anew */
     struct prepared_parts parts;
 };
 
@@ -292,6 +296,7 @@ static void forget_bodies(struct prepared_cache *cache, bool only_varied)
                 continue;
             }
             *link = entry->next;
+            cache->bytes -= entry->bytes;
             entry_clear(entry);
             free(entry);
         }
@@ -308,6 +313,63 @@ static void free_retired(struct prepared_cache *cache)
         family_free(cache->retired);
         cache->retired = next;
     }
+}
+
+/* `modes`: for which it has room. */
+static size_t group_bytes(const struct prepared_group *group, size_t modes)
+{
+    return oscillators_bytes(group->set) + (modes + 1) * sizeof *group->mode;
+}
+
+static size_t family_bytes(const struct prepared_family *family)
+{
+    const size_t modes = family->modes->count;
+    const struct participations *cached = family->participations;
+    size_t bytes = sizeof *family + family->modes->bytes + sizeof *cached +
+                   PARTICIPATION_LOADS * modes * sizeof *cached->shapes +
+                   (modes + 1) * sizeof *cached->index;
+    for (size_t g = 0; g < family->group_count; g++)
+        bytes += group_bytes(&family->groups[g], modes);
+    return bytes;
+}
+
+static size_t entry_bytes(const struct entry *entry)
+{
+    size_t bytes = sizeof *entry;
+    for (int f = 0; f < BODY_MOST_FAMILIES; f++) {
+        bytes += entry->families[f] ? family_bytes(entry->families[f]) : 0;
+        for (const struct remainder *r = entry->remainders[f]; r; r = r->next)
+            bytes += sizeof *r + oscillators_bytes(r->set);
+    }
+    for (const struct radiation *r = entry->radiation; r; r = r->next)
+        bytes += sizeof *r + oscillators_bytes(r->set);
+    return bytes;
+}
+
+/* Only what was asked for has grown. */
+static void count_touched(struct prepared_cache *cache)
+{
+    for (struct entry *entry; (entry = cache->touched);) {
+        const size_t bytes = entry_bytes(entry);
+        cache->touched = entry->next_touched;
+        cache->bytes += bytes - entry->bytes;
+        entry->bytes = bytes;
+        entry->touched = false;
+    }
+}
+
+size_t prepared_cache_bytes(const struct prepared_cache *cache)
+{
+    size_t bytes = cache->bytes;
+    for (const struct prepared_part *part = cache->parts.first; part; part = part->next)
+        bytes += sizeof *part + group_bytes(&part->group, part->group.set->count);
+    return bytes;
+}
+
+void prepared_cache_drop(struct prepared_cache *cache, bool only_varied)
+{
+    count_touched(cache);
+    forget_bodies(cache, only_varied);
 }
 
 static void release_boxes(struct prepared_cache *cache)
@@ -333,6 +395,7 @@ void prepared_cache_free(struct prepared_cache *cache)
 
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
+    count_touched(cache);
     free_retired(cache);
     release_boxes(cache);
     if (cache->parts.count > MOST_PARTS)
@@ -353,12 +416,22 @@ static struct entry **find_bucket(struct prepared_cache *cache, const char *id)
     return &cache->buckets[hash % BUCKETS];
 }
 
+static struct entry *touch(struct prepared_cache *cache, struct entry *entry)
+{
+    if (!entry->touched) {
+        entry->touched = true;
+        entry->next_touched = cache->touched;
+        cache->touched = entry;
+    }
+    return entry;
+}
+
 static struct entry *find_entry(struct prepared_cache *cache, const struct body *body)
 {
     struct entry **bucket = find_bucket(cache, body->id);
     for (struct entry *entry = *bucket; entry; entry = entry->next)
         if (body_same_modes(&entry->body, body))
-            return entry;
+            return touch(cache, entry);
     struct entry *entry = calloc(1, sizeof *entry);
     if (!entry)
         return NULL;
@@ -366,7 +439,7 @@ static struct entry *find_entry(struct prepared_cache *cache, const struct body 
     entry->next = *bucket;
     *bucket = entry;
     cache->varied += body->varied;
-    return entry;
+    return touch(cache, entry);
 }
 
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
@@ -573,6 +646,7 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)
 {
+    count_touched(cache);
     parts_clear(&cache->parts);
     for (struct entry **link = find_bucket(cache, id); *link;) {
         struct entry *entry = *link;
@@ -582,6 +656,7 @@ void prepared_cache_forget(struct prepared_cache *cache, const char *id)
         }
         *link = entry->next;
         cache->varied -= entry->body.varied;
+        cache->bytes -= entry->bytes;
         entry_clear(entry);
         free(entry);
     }

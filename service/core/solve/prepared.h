@@ -50,6 +50,12 @@ void prepared_cache_free(struct prepared_cache *cache);
  * already belongs to this revision. */
 void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 
+/* Bytes of all entries, as they were at the last prepared_cache_use. */
+size_t prepared_cache_bytes(const struct prepared_cache *cache);
+
+/* Frees the entries of bodies with parameters of a request's own, or all. No scene may use any. */
+void prepared_cache_drop(struct prepared_cache *cache, bool only_varied);
+
 /* Forgets one body: the next one of that id is another. No scene may use it any more. */
 void prepared_cache_forget(struct prepared_cache *cache, const char *id);
 

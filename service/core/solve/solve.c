@@ -15,6 +15,8 @@
 struct solve_workspace {
     struct prepared_cache *cache;
     struct arena arena;
+    struct solve_account *account; /* NULL: it keeps all */
+    size_t counted;                /* bytes of it there */
 };
 
 struct solve_workspace *solve_workspace_create(void)
@@ -34,9 +36,39 @@ void solve_workspace_free(struct solve_workspace *workspace)
 {
     if (!workspace)
         return;
+    if (workspace->account)
+        atomic_fetch_sub(&workspace->account->bytes, workspace->counted);
     prepared_cache_free(workspace->cache);
     arena_release(&workspace->arena);
     free(workspace);
+}
+
+void solve_workspace_join(struct solve_workspace *workspace, struct solve_account *account)
+{
+    workspace->account = account;
+}
+
+static size_t workspace_bytes(const struct solve_workspace *workspace)
+{
+    return prepared_cache_bytes(workspace->cache) + workspace->arena.held;
+}
+
+/* What is likely to be of no use to others goes first: bodies of one request, then the memory of
+ * one large solve, then the catalogue's bodies. */
+static void keep_within_account(struct solve_workspace *workspace)
+{
+    struct solve_account *account = workspace->account;
+    if (!account)
+        return;
+    if (workspace_bytes(workspace) > account->most_each)
+        prepared_cache_drop(workspace->cache, true);
+    if (workspace_bytes(workspace) > account->most_each)
+        arena_release(&workspace->arena);
+    if (workspace_bytes(workspace) > account->most_each)
+        prepared_cache_drop(workspace->cache, false);
+    const size_t bytes = workspace_bytes(workspace);
+    atomic_fetch_add(&account->bytes, bytes - workspace->counted);
+    workspace->counted = bytes;
 }
 
 /* Clears all but the lists, which are long; their counts tell which entries are filled. */
@@ -144,6 +176,7 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct solve_
     result_clear(result);
     arena_reset(&workspace->arena);
     prepared_cache_use(workspace->cache, context->catalogue->revision);
+    keep_within_account(workspace);
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);

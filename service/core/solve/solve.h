@@ -6,6 +6,8 @@
 #ifndef PERCUSS_SOLVE_SOLVE_H
 #define PERCUSS_SOLVE_SOLVE_H
 
+#include <stdatomic.h>
+
 #include "solve/request.h"
 #include "solve/result.h"
 
@@ -14,6 +16,15 @@
 struct solve_workspace;
 struct solve_workspace *solve_workspace_create(void); /* NULL: out of memory */
 void solve_workspace_free(struct solve_workspace *workspace);
+
+/* What workspaces keep from one solve to the next. */
+struct solve_account {
+    size_t most_each;    /* bytes; a solve needs its own on top */
+    atomic_size_t bytes; /* of all, each as it was at the beginning of its last solve */
+};
+
+/* From now on the workspace keeps to the account, which must outlive it. */
+void solve_workspace_join(struct solve_workspace *workspace, struct solve_account *account);
 
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. Prepared bodies are cached by the catalogue's revision. An

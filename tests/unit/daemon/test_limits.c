@@ -101,21 +101,36 @@ static void caches_keep_to_what_there_is(void **state)
     settings.reply_megabytes = 100;
     /* no limit, or one that is high enough */
     assert_false(limits_fit_caches(&settings, 0, 0));
-    assert_false(limits_fit_caches(&settings, 1024 * MIB, 0));
+    settings.workers = 2;
+    assert_false(limits_fit_caches(&settings, 4096 * MIB, 0));
     assert_int_equal(settings.token_megabytes, 256);
-    /* a quarter each, and never none */
+    assert_int_equal(settings.body_megabytes, 32 * limits_solving_threads(&settings));
+    /* a quarter each, or an eighth of what is prepared, and never none */
     assert_true(limits_fit_caches(&settings, 512 * MIB, 0));
     assert_int_equal(settings.token_megabytes, 128);
     assert_int_equal(settings.reply_megabytes, 100);
+    assert_int_equal(settings.box_megabytes, 64);
+    assert_int_equal(settings.body_megabytes, 64);
     assert_true(limits_fit_caches(&settings, 2 * MIB, 0));
     assert_int_equal(settings.token_megabytes, 1);
     assert_int_equal(settings.reply_megabytes, 1);
     /* of the address space what is left */
-    settings.token_megabytes = settings.reply_megabytes = 256;
+    settings.token_megabytes = settings.reply_megabytes = settings.box_megabytes = 256;
     assert_false(limits_fit_caches(&settings, 0, 16384 * MIB));
     assert_true(limits_fit_caches(&settings, 0, 400 * MIB));
     assert_int_equal(settings.token_megabytes, 8);
     assert_int_equal(settings.reply_megabytes, 8);
+    assert_int_equal(settings.box_megabytes, 8);
+    assert_int_equal(settings.body_megabytes, 8);
+    /* of a stated sum a quarter each, of which a part may be less */
+    settings = settings_default();
+    settings.limit_megabytes = 400;
+    settings.reply_megabytes = 30;
+    assert_true(limits_fit_caches(&settings, 0, 0));
+    assert_int_equal(settings.token_megabytes, 100);
+    assert_int_equal(settings.reply_megabytes, 30);
+    assert_int_equal(settings.box_megabytes, 100);
+    assert_int_equal(settings.body_megabytes, 100);
 }
 
 static void threads_need_address_space(void **state)

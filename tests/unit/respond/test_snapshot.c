@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "model/ritz_store.h"
 #include "respond/snapshot.h"
 
 static char path[] = "/tmp/percuss_snapshot_XXXXXX";
@@ -44,7 +45,8 @@ static void a_job_keeps_its_snapshot_through_a_reload(void **state)
     struct snapshot *before;
     struct fault fault;
     write_catalogue("0.010");
-    assert_int_equal(snapshots_open(&snapshots, path, &tables, "", &fault), PERCUSS_OK);
+    assert_int_equal(snapshots_open(&snapshots, RITZ_STORE_BYTES, path, &tables, "", &fault),
+                     PERCUSS_OK);
     struct snapshot *held = snapshots_hold(&snapshots);
     assert_ptr_equal(held->tables, &tables);
     write_catalogue("0.020");
@@ -70,10 +72,12 @@ static void a_bad_catalogue_changes_nothing(void **state)
     struct snapshot *before;
     struct fault fault;
     write_catalogue("-1");
-    assert_int_not_equal(snapshots_open(&snapshots, path, NULL, "", &fault), PERCUSS_OK);
+    assert_int_not_equal(snapshots_open(&snapshots, RITZ_STORE_BYTES, path, NULL, "", &fault),
+                         PERCUSS_OK);
     snapshots_close(&snapshots);
     write_catalogue("0.010");
-    assert_int_equal(snapshots_open(&snapshots, path, NULL, "", &fault), PERCUSS_OK);
+    assert_int_equal(snapshots_open(&snapshots, RITZ_STORE_BYTES, path, NULL, "", &fault),
+                     PERCUSS_OK);
     struct snapshot *held = snapshots_hold(&snapshots);
     write_catalogue("-1");
     assert_int_not_equal(snapshots_reload(&snapshots, path, &before, &fault), PERCUSS_OK);
