@@ -240,12 +240,16 @@ static void replies_refused(dds_entity_t reader, dds_requested_incompatible_qos_
     note_refusal(&((struct percuss_client *)context)->refused_replies, status.last_policy_id);
 }
 
-/* Notes from the beginning the matches that DDS refuses to our requests and to replies to us. */
-static void watch_refusals(struct percuss_client *client)
+/* Notes from the beginning the matches that DDS makes, or refuses, to our requests and to replies
+ * to us. */
+static void watch_servers(struct percuss_client *client)
 {
     dds_offered_incompatible_qos_status_t offered = {0};
     dds_requested_incompatible_qos_status_t requested = {0};
     dds_listener_t *listener = dds_create_listener(client);
+    arrivals_hear_samples(listener, &client->arrivals);
+    arrivals_hear_writers(listener, &client->arrivals);
+    arrivals_hear_readers(listener, &client->arrivals);
     dds_lset_offered_incompatible_qos(listener, requests_refused);
     dds_lset_requested_incompatible_qos(listener, replies_refused);
     dds_set_listener(client->request_writer, listener);
@@ -304,11 +308,11 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
     dds_entity_t reader = client_reader_create(client, descriptor, topic, wire_qos_exchange(name));
     if (reader < 0)
         return reader;
-    /* a read condition would wake us while DDS still holds the reader's lock; the status does so
-     * afterwards, once for new samples: the woken thread takes all */
-    dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
-    if (code == DDS_RETCODE_OK)
-        code = dds_waitset_attach(client->waitset, reader, 0);
+    /* by then DDS does not hold the reader's lock any more; the woken thread takes all */
+    dds_listener_t *listener = dds_create_listener(client);
+    arrivals_hear_samples(listener, &client->arrivals);
+    dds_return_t code = dds_set_listener(reader, listener);
+    dds_delete_listener(listener);
     return code < 0 ? code : reader;
 }
 
@@ -318,9 +322,6 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
     if (client->participant < 0)
         return error_set(PERCUSS_RESULT_TRANSPORT, "DDS participant: %s",
                          wire_participant_problem(client->participant));
-    client->waitset = dds_create_waitset(client->participant);
-    if (client->waitset < 0)
-        return failure_dds("waitset", client->waitset);
     client->reply_reader =
         client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
     client->observes = client->reply_reader == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY;
@@ -328,30 +329,17 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
         return PERCUSS_RESULT_OK;
     if (client->reply_reader < 0)
         return failure_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
-    /* a waiting thread is woken when the server goes, too */
-    dds_return_t code = dds_set_status_mask(
-        client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
-    if (code < 0)
-        return failure_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
-    /* the writer of requests, and the notes of refused matches */
+    /* the writer of requests; and a waiting thread is woken when a server comes or goes */
     client->request_writer =
         client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
         return failure_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
-    /* and when one comes that reads requests */
-    code = dds_set_status_mask(client->request_writer, DDS_PUBLICATION_MATCHED_STATUS);
-    if (code == DDS_RETCODE_OK)
-        code = dds_waitset_attach(client->waitset, client->request_writer, 0);
-    if (code < 0)
-        return failure_dds("status of the writer of " WIRE_TOPIC_REQUEST, code);
-    watch_refusals(client);
+    watch_servers(client);
     return PERCUSS_RESULT_OK;
 }
 
 static void delete_entities(struct percuss_client *client)
 {
-    if (client->waitset > 0)
-        dds_delete(client->waitset);
     for (size_t i = 0; i < client->endpoint_count; i++)
         dds_delete(client->endpoints[i]);
     if (client->participant > 0)
@@ -405,6 +393,8 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
     created->operations = &LIBRARY_OPERATIONS;
     create_lock(created);
+    arrivals_open(&created->arrivals);
+    created->clock = wire_clock_start();
     forked_add(&created->forked, &created->operations);
     created->domain = chosen.domain;
     created->secured = identity != NULL;
@@ -440,6 +430,7 @@ void client_free(struct percuss_client *client)
     pending_clear(&client->pending);
     for (int i = 0; i < CLIENT_TAKE_AT_ONCE; i++)
         dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
+    arrivals_close(&client->arrivals);
     pthread_cond_destroy(&client->changed);
     pthread_mutex_destroy(&client->lock);
     free(client->identity);

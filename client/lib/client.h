@@ -9,11 +9,13 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "arrivals.h"
 #include "forked.h"
 #include "operations.h"
 #include "pending.h"
 #include "watching.h"
 #include "wire.h"
+#include "wire_clock.h"
 #include "wire_validity.h"
 
 enum {
@@ -43,7 +45,6 @@ struct percuss_client {
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* beginning of the server's id; empty: any */
     bool least_loaded;                   /* of all: the one that has least to do */
     dds_entity_t participant; /* of all clients of the domain and identity, see client.c */
-    dds_entity_t waitset;
     dds_entity_t request_writer;
     dds_entity_t reply_reader;
 
@@ -51,9 +52,13 @@ struct percuss_client {
      * none. Told by threads of DDS. */
     atomic_uint refused_requests, refused_replies;
 
+    struct arrivals arrivals; /* told by threads of DDS */
+    struct wire_clock clock;  /* the leader's */
+    double clock_looked;      /* s: when it looked at it */
+
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
-    bool leading; /* a thread is in the waitset, see receive.h */
+    bool leading; /* a thread waits for arrivals, see receive.h */
     /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
     percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
@@ -94,7 +99,7 @@ dds_entity_t client_reader_create(struct percuss_client *client,
 dds_entity_t client_writer_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic);
 
-/* A reader of topic `topic` in the client's own partition, attached to the waitset. */
+/* A reader of topic `topic` in the client's own partition, which tells of its samples. */
 dds_entity_t client_reply_reader_create(struct percuss_client *client,
                                         const dds_topic_descriptor_t *descriptor,
                                         const char *topic);

@@ -17,7 +17,8 @@
 
 /* s from the discovery of a writer of replies until it would have answered a ping */
 static const double NEWCOMER = 0.2;
-static const double LONGEST_WAIT = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
+static const double CLOCK_INTERVAL = 1.0; /* s between looks at the time of day */
+static const double LONGEST_WAIT = 1e6;   /* s; so that infinity fits nanoseconds and a timespec */
 
 /* Whether a reply comes from the server that we stay with; the lock is held. */
 static bool is_ours(const struct percuss_client *client, const uint8_t server[16])
@@ -257,57 +258,41 @@ void receive_note_loss(struct percuss_client *client)
     note_loss(client, !is_there(client, client->server.writer));
 }
 
-/* Whether some writer of replies has come or gone, and that one has; and whether one has come.
- * Being read, the status no longer wakes. */
-static bool has_gone(const struct percuss_client *client, dds_instance_handle_t writer,
-                     bool *newcomer)
+/* Threads of DDS wait by the time of day too: one that was set back has them oversleep. */
+static void look_at_clock(struct percuss_client *client)
 {
-    uint32_t changes = 0;
-    *newcomer = false;
-    dds_subscription_matched_status_t matched;
-    dds_get_status_changes(client->reply_reader, &changes);
-    if (!(changes & DDS_SUBSCRIPTION_MATCHED_STATUS))
-        return false;
-    dds_get_subscription_matched_status(client->reply_reader, &matched);
-    *newcomer = matched.total_count_change > 0;
-    return !is_there(client, writer);
-}
-
-/* The one who waits looks for itself whether somebody reads requests, when it is woken: being read,
- * the status no longer wakes. */
-static void note_readers(const struct percuss_client *client)
-{
-    dds_publication_matched_status_t matched;
-    dds_get_publication_matched_status(client->request_writer, &matched);
+    const double now = moment_now();
+    if (now - client->clock_looked < CLOCK_INTERVAL)
+        return;
+    client->clock_looked = now;
+    if (wire_clock_is_back(wire_clock_step(&client->clock)))
+        wire_clock_rouse(client->request_writer);
 }
 
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
-    /* the readers of this moment: other threads add readers while the lock is released */
-    dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
-    dds_entity_t ensemble_reader = client->ensemble_reader;
     dds_instance_handle_t writer = client->server.writer;
     client->leading = true;
     pthread_mutex_unlock(&client->lock);
 
     enum percuss_result result = PERCUSS_RESULT_OK;
-    dds_duration_t duration = (dds_duration_t)(1e9 * fmin(seconds, LONGEST_WAIT));
-    dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
-    if (triggered < 0)
-        result = failure_dds("waiting for replies", triggered);
+    look_at_clock(client);
+    const struct arrival came = arrivals_await(&client->arrivals, fmin(seconds, CLOCK_INTERVAL));
+    /* the readers of this moment: other threads have added theirs before they asked */
+    pthread_mutex_lock(&client->lock);
+    dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
+    dds_entity_t ensemble_reader = client->ensemble_reader;
+    pthread_mutex_unlock(&client->lock);
     /* before arrived samples are taken: those of a server arrive before its loss is seen */
-    bool newcomer = false;
-    bool gone = triggered > 0 && has_gone(client, writer, &newcomer);
-    if (triggered > 0)
-        note_readers(client);
-    if (triggered > 0)
+    const bool gone = came.matched && !is_there(client, writer);
+    if (came.any)
         result = take_all(client, client->reply_reader, take_replies);
-    if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
+    if (came.any && result == PERCUSS_RESULT_OK && batch_reader)
         result = take_all(client, batch_reader, take_batch_part);
-    if (triggered > 0 && result == PERCUSS_RESULT_OK && trace_reader)
+    if (came.any && result == PERCUSS_RESULT_OK && trace_reader)
         result = take_all(client, trace_reader, take_trace_part);
-    if (triggered > 0 && result == PERCUSS_RESULT_OK && ensemble_reader) {
+    if (came.any && result == PERCUSS_RESULT_OK && ensemble_reader) {
         result = take_all(client, client->samples_reader, take_sample_parts);
         if (result == PERCUSS_RESULT_OK)
             result = take_all(client, client->progress_reader, take_progresses);
@@ -316,7 +301,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     }
 
     pthread_mutex_lock(&client->lock);
-    if (newcomer)
+    if (came.newcomer)
         client->newcomer_until = moment_now() + NEWCOMER;
     /* another server may have been chosen meanwhile */
     note_loss(client, client->lost || (gone && writer == client->server.writer));

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Reading. There is no reader thread: a thread that waits for a reply sits in the waitset itself
- * and takes it, so that a reply costs one hand-over (Cyclone's receive thread to the caller) and
+/* Reading. There is no reader thread: a thread that waits for a reply waits for arrivals itself and
+ * takes it, so that a reply costs one hand-over (Cyclone's receive thread to the caller) and
  * not two. Only one thread at a time does so, the leader; it files what arrives for the others,
  * which sleep on the client's condition variable, and when its own wait is over another takes its
  * place. */

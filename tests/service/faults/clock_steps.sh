@@ -93,6 +93,21 @@ for seconds in 18000 -18000 90000 -90000 0; do
 done
 wait "$others" || fail "$(cat "$work/clients")"
 others=
+
+say "set back by an hour under a client that waits for an answer: its time is over when it said"
+# complete finite elements take minutes; a wait by the time of day would take an hour
+started=$(date +%s)
+with_clock timeout 60 "$bin/percuss" query --domain "$domain" --a steel-sphere --b al-rod --speed 0.3 \
+    --contact-model complete-fe --tolerance 1e-9 --timeout 4 >"$out" 2>"$err" 9>&- &
+others=$!
+# it is known, and waits
+is_asked() { percuss status --json 2>/dev/null | grep -q '"running"'; }
+wait_for 20 is_asked || fail "nothing runs"
+set_clock -3600
+code=0
+wait "$others" || code=$?
+others=
+[ "$code" -eq 4 ] || fail "exit code $code, not 4, after $(($(date +%s) - started)) s"
 is_gone "$daemon" && fail "the daemon has gone"
 kill -USR1 "$daemon"
 wait_for 10 logged "store: 1 specimens, 5 replies, 0 marks of clients: 0 damaged" || fail "the store"
