@@ -17,6 +17,7 @@
 #include "wire_loopback.h"
 #include "wire_ports.h"
 #include "wire_security.h"
+#include "wire_shared.h"
 
 /* The domain of an earlier participant of this process serves as well, as soon as it is ready. */
 static dds_return_t create_domain(uint32_t domain, enum wire_side side)
@@ -119,6 +120,9 @@ static dds_entity_t create_participant(uint32_t domain, const char *security, en
         return WIRE_NO_DESCRIPTORS;
     if (!has_address_space())
         return WIRE_NO_ADDRESS_SPACE;
+    if (wire_is_configured() && wire_shared_is_asked(getenv("CYCLONEDDS_URI")) &&
+        !wire_shared_is_there())
+        return WIRE_NO_SHARED_MEMORY;
     dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain, side);
     if (made < 0)
         return find_reason(domain, side, made);
@@ -188,6 +192,9 @@ const char *wire_participant_problem(dds_return_t code)
     if (code == WIRE_NO_LOOPBACK)
         return "127.0.0.1 is not up, and without CYCLONEDDS_URI nothing else is used: ip link set "
                "lo up (as root) is needed";
+    if (code == WIRE_NO_SHARED_MEMORY)
+        return "CYCLONEDDS_URI has SharedMemory enabled, and its daemon is not there: start "
+               "iox-roudi, or say <Enable>false</Enable>";
     if (code > WIRE_NO_DESCRIPTORS || code < WIRE_CONFIGURED_BADLY)
         return dds_strretcode(-code);
     static _Thread_local char text[480];

@@ -31,9 +31,10 @@ enum { WIRE_WINDOW = 1024 };
 enum {
     WIRE_NO_DESCRIPTORS = -9001,
     WIRE_NO_ADDRESS_SPACE = -9002,
-    WIRE_NO_INDEX = -9003,        /* without CYCLONEDDS_URI: other processes have them all */
-    WIRE_NO_LOOPBACK = -9004,     /* without CYCLONEDDS_URI: 127.0.0.1 is not up */
-    WIRE_CONFIGURED_BADLY = -9005 /* CYCLONEDDS_URI cannot be used */
+    WIRE_NO_INDEX = -9003,         /* without CYCLONEDDS_URI: other processes have them all */
+    WIRE_NO_LOOPBACK = -9004,      /* without CYCLONEDDS_URI: 127.0.0.1 is not up */
+    WIRE_NO_SHARED_MEMORY = -9005, /* CYCLONEDDS_URI has it enabled, without its daemon */
+    WIRE_CONFIGURED_BADLY = -9006  /* CYCLONEDDS_URI cannot be used */
 };
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in

@@ -7,9 +7,9 @@
 
 #include <dds/dds.h>
 
-/* Participant indices, one for each process: a server's from 0 on, a client's from the 17th, 16, on;
- * so many as MaxAutoParticipantIndex says, since Cyclone DDS 0.10.2 fails at the last one. The ports
- * of the next one but one are another domain's. */
+/* Participant indices, one for each process: a server's from 0 on, a client's from the 17th, 16,
+ * on; so many as MaxAutoParticipantIndex says, since Cyclone DDS 0.10.2 fails at the last one. The
+ * ports of the next one but one are another domain's. */
 enum { WIRE_LOOPBACK_INDICES = 119, WIRE_LOOPBACK_CLIENTS = 16 };
 
 /* What a process is among those of the domain. */

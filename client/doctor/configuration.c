@@ -9,6 +9,7 @@
 
 #include "machine.h"
 #include "wire_loopback.h"
+#include "wire_shared.h"
 
 enum { VALUE_SIZE = 128, LINE_SIZE = 400 };
 
@@ -106,15 +107,15 @@ static void advise(const char *message, unsigned taken, char *advice, size_t siz
                  VARIABLE);
 }
 
-/* DDS waits for the process that has the shared memory for a minute, and then ends its own. */
-static bool look_at_shared_memory(const struct watched *end, struct findings *findings)
+/* Without its daemon programs refuse to start (wire.h). */
+static bool look_at_shared_memory(struct findings *findings)
 {
-    if (!end->log || !strstr(end->log, "RouDi"))
+    if (!wire_shared_is_asked(configuration_given()) || wire_shared_is_there())
         return false;
     findings_add(findings, FINDING_PROBLEM, SUBJECT,
                  "start iox-roudi on this machine, or set SharedMemory/Enable to false in it",
-                 "%s=%.300s wants shared memory (SharedMemory/Enable), whose process iox-roudi "
-                 "does not run: DDS waits for it, and then ends the program",
+                 "%s=%.300s wants shared memory (SharedMemory/Enable), whose daemon iox-roudi is "
+                 "not there",
                  VARIABLE, configuration_given());
     return true;
 }
@@ -183,7 +184,7 @@ void configuration_look(const struct watched *end, unsigned taken, struct findin
     const char *log = end->log ? end->log : "";
     if (!configuration_given()) {
         look_at_built_in(taken, findings);
-    } else if (look_at_shared_memory(end, findings)) {
+    } else if (look_at_shared_memory(findings)) {
         return;
     } else if (strstr(log, "Unicast Ports: ")) {
         tell(log, taken, findings);

@@ -60,11 +60,11 @@ say "one by which nobody can be found"
 doctor 3 "$(xml '<General><AllowMulticast>false</AllowMulticast></General>')"
 shows "problem  configuration: AllowMulticast is false and no Peer is named: DDS finds nobody; to do: name the other"
 
-say "shared memory without its process, for which programs wait"
+say "shared memory without its daemon"
 doctor 3 "$(xml '<SharedMemory><Enable>true</Enable></SharedMemory>')"
 shows "problem  configuration: "
-shows "whose process iox-roudi does not run"
-shows "problem  DDS: it has not come back, and was ended: so programs with this configuration hang"
+shows "whose daemon iox-roudi is not there"
+shows "problem  DDS: domain $domain cannot be joined: CYCLONEDDS_URI has SharedMemory enabled, and its daemon is not there"
 
 if unshare -rn true 2>/dev/null; then
     say "no interface"
