@@ -88,7 +88,8 @@ say "a client that waits for a server"
 "$bin/percuss" ping --domain "$domain" --timeout 60 2>/dev/null 9>&- &
 client=$!
 others="${others:-} $client"
-port=${ports%% *}
+# clients are the processes from the 17th on
+port=$((7400 + 250 * domain + 10 + 2 * 16))
 wait_for 10 answered "$port" from_here || fail "port $port: the client does not answer on loopback"
 answered "$port" from_there && fail "port $port: the client answers to another network"
 kill "$client"
@@ -110,5 +111,6 @@ CYCLONEDDS_URI="<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInte
 </Discovery></Domain></CycloneDDS>"
 export CYCLONEDDS_URI
 start_daemon
+port=${ports%% *}
 answered "$port" from_there || fail "port $port: with a configuration of one's own, not answered"
 stop_daemon
