@@ -121,6 +121,7 @@ struct slide {
                                 that has one */
     double stiffness[NODES]; /* of a rate's excess, N/m: the points' own */
     double share;            /* of the limits that is in force */
+    double rounding;         /* of a rate times its stiffness, N */
     double force[2][NODES];
     bool sticks[NODES];
 };
@@ -150,6 +151,13 @@ static void write_beside(struct slide *slide, int i, double (*matrix)[UNKNOWNS],
     }
 }
 
+/* Whether no force moves a point along a tangent: bodies in joints. What slides along it goes on.
+ */
+static bool is_held(const struct slide *slide, int tangent, int point)
+{
+    return slide->response->by[tangent][tangent][point][point] == 0.0;
+}
+
 /* Newton's equations of a point: T is the nearest force in Coulomb's circle to T + stiffness v. */
 static void write_point(struct slide *slide, int i, double (*matrix)[UNKNOWNS], double *excess)
 {
@@ -159,7 +167,9 @@ static void write_point(struct slide *slide, int i, double (*matrix)[UNKNOWNS], 
         pull[a] = slide->force[a][i] + rate[a];
     }
     double size = hypot(pull[0], pull[1]);
-    slide->sticks[i] = size <= limit;
+    const bool held[2] = {is_held(slide, 0, i), is_held(slide, 1, i)};
+    slide->sticks[i] = size <= limit && !(held[0] && fabs(rate[0]) > slide->rounding) &&
+                       !(held[1] && fabs(rate[1]) > slide->rounding);
     for (int a = 0; a < 2; a++) {
         double *row = matrix[2 * i + a];
         memset(row, 0, sizeof *matrix);
@@ -177,6 +187,11 @@ static void write_point(struct slide *slide, int i, double (*matrix)[UNKNOWNS], 
             for (int b = 0; b < 2; b++)
                 for (int j = 0; j < NODES; j++)
                     row[2 * j + b] += turn * slide->stiffness[i] * slide->response->by[c][b][i][j];
+        }
+        /* none is needed to stick along it */
+        if (slide->sticks[i] && held[a]) {
+            row[2 * i + a] = 1.0;
+            excess[2 * i + a] = slide->force[a][i];
         }
     }
 }
@@ -282,6 +297,9 @@ static double product(const double by[NODES], const double values[NODES])
     return (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
 }
 
+/* Of the largest limit. */
+static const double PULL = 4.0;
+
 /* Of a rate by six displacements, whose weights' sizes sum up to some 50. */
 static const double ROUNDING = 2e-14;
 
@@ -325,17 +343,20 @@ bool coulomb_solve(struct coulomb *coulomb, const struct scene *scene, size_t i,
                             jump_of(coulomb, scene, i, 1, slide.force)};
     for (int p = 0; p < NODES; p++) {
         const struct coulomb_response *own = slide.response;
-        slide.stiffness[p] = 2.0 / fabs(own->by[0][0][p][p] + own->by[1][1][p][p]);
-        stiffest = larger(stiffest, slide.stiffness[p]);
+        double moves = fabs(own->by[0][0][p][p] + own->by[1][1][p][p]);
         for (int a = 0; a < 2; a++)
             slide.free[a][p] =
                 at_way(way, a, points->rate[p]) - jump[a] * points->jump[p] - rate_at(&slide, a, p);
+        /* what no force moves slides: its rate pulls by more than the limits */
+        double rate = hypot(slide.free[0][p], slide.free[1][p]);
+        slide.stiffness[p] = moves > 0.0 ? 2.0 / moves : rate > 0.0 ? PULL * most / rate : 0.0;
+        stiffest = larger(stiffest, slide.stiffness[p]);
     }
+    coulomb->rounding[i] = slide.rounding = ROUNDING * coulomb->reach[i] * stiffest;
     find_likes(&slide);
     if (!find_forces(&slide) && !raise_limits(&slide))
         return false;
     shorten(&slide);
-    coulomb->rounding[i] = ROUNDING * coulomb->reach[i] * stiffest;
     for (int node = 0; node < NODES; node++) {
         coulomb->stuck[i][node] = sticks_at(&slide, node, coulomb->rounding[i]);
         for (int a = 0; a < 2; a++)

@@ -59,6 +59,41 @@ static void spheres(void **state)
         }
 }
 
+/* A body in a joint that no force moves along one tangent, or along both: what slides there goes
+ * on, and what stands is as if that tangent were not. */
+static void held_along_a_tangent(void **state)
+{
+    (void)state;
+    static const double w[][2] = {{3.5, 0.0}, {0.0, 3.5}, {0.0, 0.0}};
+    for (size_t i = 0; i < COUNT(w); i++)
+        for (int moving = 0; moving < 4; moving++) {
+            struct toy toy;
+            struct scene_friction friction;
+            sphere_init(&toy, &friction, MU);
+            toy.w[4] = w[i][0];
+            toy.w[8] = w[i][1];
+            toy.gap_rate[1] = moving & 1 ? 0.5 : 0.0;
+            toy.gap_rate[2] = moving & 2 ? 0.5 : 0.0;
+            const struct impact_outcome outcome = toy_run(&toy, 1e-5, 100.0);
+            const struct track *track = &outcome.tracks[0];
+            double limit = MU * track->impulse;
+            double size = hypot(track->tangential[0], track->tangential[1]);
+            bool slides = false;
+            for (int t = 0; t < 2; t++) {
+                bool moves = moving & (1 << t), held = w[i][t] == 0.0;
+                slides = slides || (moves && held);
+                /* beside a slip that goes on the other one fades, as the force turns to that */
+                if (held || moving != 3)
+                    near(outcome.motion.gap_rate[1 + t], moves && held ? 0.5 : 0.0, 1e-12);
+            }
+            if (slides && moving != 3)
+                near(size, limit, 1e-12);
+            assert_true(size <= limit * (1.0 + 1e-12));
+            near(outcome.energy.closure / outcome.energy.available, 0.0, 1e-5);
+            toy_free(&toy);
+        }
+}
+
 /* Bodies so light along one tangent that the slip turns; without friction across it the limit of
  * that turn is the point's own path, by short steps. */
 static void slips_that_turn(void **state)
@@ -197,11 +232,9 @@ static void slid_before_the_touch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres),
-        cmocka_unit_test(slips_that_turn),
-        cmocka_unit_test(in_a_groove),
-        cmocka_unit_test(two_of_one_body),
-        cmocka_unit_test(slid_before_the_touch),
+        cmocka_unit_test(spheres),         cmocka_unit_test(held_along_a_tangent),
+        cmocka_unit_test(slips_that_turn), cmocka_unit_test(in_a_groove),
+        cmocka_unit_test(two_of_one_body), cmocka_unit_test(slid_before_the_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
