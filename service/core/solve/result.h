@@ -75,9 +75,10 @@ struct solve_contact_result {
     double impulse_error_model;           /* the models' part of it */
     double friction;                      /* coefficient that was used; 0: none */
     double tangent[3]; /* the first, world; the second: normal x tangent; zero without friction */
-    double impulse_tangential[2];         /* on body a */
-    double impulse_tangential_error;      /* N s, all known errors together */
-    double slip_before[2], slip_after[2]; /* of the rigid bodies, m/s; zero without friction */
+    double impulse_tangential[2];          /* on body a */
+    double impulse_tangential_error;       /* N s, all known errors together */
+    double impulse_tangential_error_model; /* the models' part */
+    double slip_before[2], slip_after[2];  /* of the rigid bodies, m/s; zero without friction */
     double tangential_restitution; /* -after.before / before^2; NAN without slip or friction */
     double restitution_kinematic;  /* -gap rate after / before; NAN for groups */
     double restitution_energetic;  /* Stronge's; NAN for groups */

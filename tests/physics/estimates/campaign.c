@@ -115,15 +115,14 @@ static bool answer(struct campaign *campaign, struct scene_drawn *scene, double 
     return true;
 }
 
-/* Whether the errors of modes, steps and cells cover the tangential impulses' (drawn_oblique.c: the
- * models' part is the normal impulses' alone). */
+/* Whether the errors of modes, steps and cells cover the tangential impulses'. */
 static bool covers_tangential(const struct truth *truth, const struct solve_result *result)
 {
     for (size_t c = 0; c < truth->contacts; c++) {
         const struct solve_contact_result *contact = &result->contacts[c];
         const double *t = contact->impulse_tangential, *right = truth->tangential[c];
-        double given = contact->impulse_tangential_error -
-                       contact->friction * contact->impulse_error_model + truth->impulse_spread;
+        double given = contact->impulse_tangential_error - contact->impulse_tangential_error_model +
+                       truth->impulse_spread;
         if (!(hypot(t[0] - right[0], t[1] - right[1]) <= given))
             return false;
     }

@@ -223,18 +223,37 @@ static double waves_along(const struct problem *problem, const struct contact_fr
     return WAVES_ALONG * lag * stiffness * sqrt(stiffness * problem->row_w[row * (rows + 1)]);
 }
 
-double deviation_along(const struct problem *problem, const struct contact_friction *friction)
+/* What a body yields along its surface less than a half-space, m/N: of solids the modes know it, of
+ * meshes but for a part; of a ball or a bar it is about as much as across. */
+static double unknown_along(const struct problem *problem, const struct contact_friction *friction,
+                            int tangent, int which)
+{
+    const struct contact_side *side = &problem->sides[friction->contact][which];
+    const struct body *body = problem->bodies[side->body];
+    double size = scale_of(body);
+    double mesh = friction->sides[tangent][which].load.family[0].mesh.unknown;
+    if (body_is_solid(body) || !isfinite(size))
+        return mesh;
+    double share = !is_bar(body)                       ? UNKNOWN_COMPACT
+                   : side->site.face == SITE_BEAM_SIDE ? UNKNOWN_SIDE
+                   : side->site.face == SITE_END       ? UNKNOWN_HALF_SPACE
+                                                       : UNKNOWN_WITHOUT_SHEAR;
+    return mesh + share / (body->material.young * size);
+}
+
+struct deviation_along deviation_along(const struct problem *problem,
+                                       const struct contact_friction *friction)
 {
     const struct model_impact blow = model_impact_fastest(problem, friction->contact);
-    double share = 0.0;
+    struct deviation_along largest = {0.0, 0.0};
     for (int t = 0; t < 2; t++) {
         double stiffness = friction->ratio[2 * t] * model_impact_stiffness(&blow);
-        double unknown = friction->sides[t][0].load.family[0].mesh.unknown +
-                         friction->sides[t][1].load.family[0].mesh.unknown;
-        double waves = waves_along(problem, friction, t, stiffness);
-        share = fmax(share, unknown * stiffness + waves);
+        double unknown =
+            unknown_along(problem, friction, t, 0) + unknown_along(problem, friction, t, 1);
+        largest.stiffness = fmax(largest.stiffness, unknown * stiffness);
+        largest.waves = fmax(largest.waves, waves_along(problem, friction, t, stiffness));
     }
-    return share;
+    return largest;
 }
 
 double deviation_stiffness(const struct deviation *deviation, const struct model_impact *impact)

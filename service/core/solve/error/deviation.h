@@ -44,10 +44,14 @@ struct deviation deviation_of(const struct problem *problem, size_t contact,
 /* Share of the stiffness that a compliance in series with a contact changes, per m/N. */
 double model_impact_stiffness(const struct model_impact *impact);
 
-/* Share of its limit by which the tangential impulse of a contact with friction may differ: by the
- * unknown part of the bodies' tangential flexibility, and by the waves that leave along
- * half-spaces. */
-double deviation_along(const struct problem *problem, const struct contact_friction *friction);
+/* Shares of its limit by which the tangential impulse of a contact with friction may differ. */
+struct deviation_along {
+    double stiffness; /* by the unknown part of the bodies' tangential flexibility */
+    double waves;     /* by the waves that leave along half-spaces */
+};
+
+struct deviation_along deviation_along(const struct problem *problem,
+                                       const struct contact_friction *friction);
 
 /* Deviation of the stiffness, as a share: of the law's force and the compliance together. */
 double deviation_stiffness(const struct deviation *deviation, const struct model_impact *impact);

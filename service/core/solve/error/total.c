@@ -113,7 +113,9 @@ static void report_tangential(const struct problem *problem, const struct soluti
         double cells = FRICTION_LEFT * sqrt(solution->step_accuracy) * limit;
         double models = hypot(solution->error.models.tangential[c],
                               friction->coefficient * contact->impulse_error_model);
-        models += deviation_along(problem, friction) * limit;
+        struct deviation_along along = deviation_along(problem, friction);
+        models += (along.stiffness + along.waves) * limit;
+        contact->impulse_tangential_error_model = models;
         double sum = normal + fmax(cells, solution->neighbours->tangential[c]) + models;
         /* from one end of Coulomb's range to the other */
         contact->impulse_tangential_error =
