@@ -109,7 +109,7 @@ static void look_at_server(const struct percuss_server *server, const struct dds
                      "percussd is %s, percuss is " PERCUSS_VERSION, server->version);
     if (strcmp(server->state, "ready") != 0)
         findings_add(findings, FINDING_WARNING, "state of the daemon",
-                     "start it again when it has ended", "it is %s: it ends", server->state);
+                     "start it again when it has ended", "it is ending (%s)", server->state);
     if (10 * server->queue_length >= 9 * server->queue_capacity)
         findings_add(findings, FINDING_WARNING, "queue",
                      "percuss status shows for whom it works; PercussBusy in the runbook",
@@ -134,12 +134,20 @@ static void look_at_servers(const struct common *common, struct percuss_client *
     char digits[33];
     double trip = NAN;
     percuss_client_server(client, id);
-    if (percuss_servers(client, common_patience(common), &list) != PERCUSS_RESULT_OK)
+    if (percuss_servers(client, common_patience(common), &list) != PERCUSS_RESULT_OK) {
+        findings_add(findings, FINDING_WARNING, "daemon", NULL, "the servers cannot be listed: %s",
+                     percuss_error_text());
         return;
+    }
     const struct percuss_server *ours = find_server(&list, id);
-    percuss_ping(client, common_patience(common), &trip);
+    const bool answers = percuss_ping(client, common_patience(common), &trip) == PERCUSS_RESULT_OK;
     format_hex(id, digits);
-    if (ours) {
+    if (ours && !answers)
+        findings_add(findings, FINDING_WARNING, "daemon",
+                     "look whether it is stopped or busy (its log, top)",
+                     "percussd %s %.8s (process %u on %s) announces itself and does not answer: %s",
+                     ours->version, digits, ours->process, ours->host, percuss_error_text());
+    if (ours && answers) {
         findings_add(findings, FINDING_OK, "daemon", NULL,
                      "percussd %s %.8s (process %u on %s) answers within %.0f us: %s, up %.0f s, "
                      "%u bodies, %u specimens kept, catalogue %s",
@@ -252,9 +260,9 @@ static void look_at_machine(const struct common *common, bool answered, struct f
     if (!daemons)
         return;
     size_t count = machine_look_at_daemons(common->domain, answered, daemons, findings);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && start_advice_program(daemon); i++)
         if (!daemons[i].elsewhere)
-            state_look_at_running(&daemons[i], findings);
+            state_look_at_running(&daemons[i], daemon, findings);
     if (count == 0 && !answered && start_advice_daemon(daemon, settings))
         state_look_at_start(daemon, settings, common->domain, findings);
     free(daemons);
@@ -303,8 +311,9 @@ static void print_json(const struct findings *findings)
 
 int command_doctor(int argc, char **argv, struct common *common)
 {
-    /* s besides the patience: to look at other domains, at the clock, and to join and leave */
-    static const double BESIDES = 10.0;
+    /* s besides the patience of connecting, listing and asking: to look at other domains, at the
+     * clock, and to join and leave */
+    static const double BESIDES = 10.0, PATIENCES = 3.0;
     struct findings findings = {0}, of_network = {0};
     struct watched end;
     argp_parse(&doctor_argp, argc, argv, 0, NULL, common);
@@ -317,7 +326,8 @@ int command_doctor(int argc, char **argv, struct common *common)
     look_at_variables(&findings);
     machine_look_at_interfaces(configuration_given() != NULL, &findings);
     const unsigned taken = machine_indices(common->domain);
-    watched_run(look_at_network, common, common_patience(common) + BESIDES, &of_network, &end);
+    watched_run(look_at_network, common, PATIENCES * common_patience(common) + BESIDES, &of_network,
+                &end);
     configuration_look(&end, taken, &findings);
     for (size_t i = 0; i < of_network.count; i++)
         findings_keep(&findings, &of_network.each[i]);

@@ -70,6 +70,16 @@ static bool unit_suits(const struct common *common, const char *folder)
            unit_domain(folder) == common->domain;
 }
 
+bool start_advice_program(char daemon[PATH_MAX])
+{
+    char folder[PATH_MAX], path[PATH_MAX];
+    bool known = own_folder(folder), found = false;
+    for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
+        found = snprintf(path, sizeof path, "%s/%s", folder, places[i].daemon) < PATH_MAX &&
+                realpath(path, daemon);
+    return found;
+}
+
 bool start_advice_daemon(char daemon[PATH_MAX], char settings[PATH_MAX])
 {
     char folder[PATH_MAX];

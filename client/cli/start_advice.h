@@ -9,6 +9,9 @@
 
 #include "cli.h"
 
+/* The whole path of its program; false: it is not there. */
+bool start_advice_program(char daemon[PATH_MAX]);
+
 /* Its program and its settings, as a user here would write them; false: they are not there. */
 bool start_advice_daemon(char daemon[PATH_MAX], char settings[PATH_MAX]);
 

@@ -132,7 +132,8 @@ static void look_at_reach(const char *log, struct findings *findings)
         findings_add(findings, FINDING_PROBLEM, SUBJECT,
                      "name the other machines (or 127.0.0.1) as Discovery/Peers/Peer in it",
                      "AllowMulticast is false and no Peer is named: DDS finds nobody");
-    else if (!peer[0] && strncmp(address, "127.", 4) != 0 && !machine_multicasts(address))
+    else if (!peer[0] && address[0] && strncmp(address, "127.", 4) != 0 &&
+             !machine_multicasts(address))
         findings_add(findings, FINDING_PROBLEM, SUBJECT,
                      "name the other machines as Discovery/Peers/Peer in it",
                      "multicast is not available from %s: no packet comes back that is sent so, "

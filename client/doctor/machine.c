@@ -174,8 +174,8 @@ static void look_at_daemon(const struct wire_daemon *daemon, bool answered,
     else if (likeness == WIRE_UNKNOWN)
         findings_add(findings, answered ? FINDING_OK : FINDING_WARNING, SUBJECT,
                      answered ? NULL : advice,
-                     "percussd runs as process %ld of user %u, of whom a process is in this "
-                     "domain; its CYCLONEDDS_URI only that user and root can read",
+                     "percussd runs as process %ld of user %u, who has a process in this domain; "
+                     "its CYCLONEDDS_URI only that user and root can read",
                      daemon->process, daemon->user);
     else if (likeness == WIRE_ALIKE)
         findings_add(findings, FINDING_OK, SUBJECT, NULL,

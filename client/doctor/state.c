@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "watched.h"
@@ -130,13 +131,32 @@ static bool follow(long process, const char *name, char target[PATH_MAX])
     return length > 0;
 }
 
-void state_look_at_running(const struct wire_daemon *daemon, struct findings *findings)
+/* Whether the process runs this file. Any process may call itself percussd: what it runs is not to
+ * be run by another user, least of all by root. */
+static bool runs(long process, const char *program)
 {
-    char text[4 * PATH_MAX], program[PATH_MAX], folder[PATH_MAX], here[PATH_MAX];
+    char path[64];
+    struct stat its, ours;
+    snprintf(path, sizeof path, "/proc/%ld/exe", process);
+    return stat(path, &its) == 0 && stat(program, &ours) == 0 && its.st_dev == ours.st_dev &&
+           its.st_ino == ours.st_ino;
+}
+
+void state_look_at_running(const struct wire_daemon *daemon, const char *program,
+                           struct findings *findings)
+{
+    char text[4 * PATH_MAX], folder[PATH_MAX], here[PATH_MAX];
     char *argv[MOST_ARGUMENTS];
     size_t count = read_arguments(daemon->process, text, sizeof text, argv);
-    if (count == 0 || !follow(daemon->process, "exe", program) ||
-        !follow(daemon->process, "cwd", folder) || (geteuid() != 0 && geteuid() != daemon->user)) {
+    if ((geteuid() == 0 || geteuid() == daemon->user) && !runs(daemon->process, program)) {
+        findings_add(findings, FINDING_OK, SUBJECT, NULL,
+                     "settings and store of process %ld are not looked at: it does not run %s "
+                     "(a container's daemon: percuss doctor in the container looks at them)",
+                     daemon->process, program);
+        return;
+    }
+    if (count == 0 || !follow(daemon->process, "cwd", folder) ||
+        (geteuid() != 0 && geteuid() != daemon->user)) {
         findings_add(
             findings, FINDING_OK, SUBJECT, NULL,
             "settings and store of process %ld are its user's: sudo -E percuss doctor looks "
@@ -146,7 +166,7 @@ void state_look_at_running(const struct wire_daemon *daemon, struct findings *fi
     }
     if (!getcwd(here, sizeof here) || chdir(folder) != 0)
         return;
-    argv[0] = program;
+    argv[0] = (char *)program;
     argv[count++] = "--check-config";
     argv[count] = NULL;
     check(argv, daemon->process, findings);

@@ -9,9 +9,11 @@
 #include "finding.h"
 #include "wire_daemons.h"
 
-/* Those of a running one, with the arguments and in the folder that it was started with. What only
- * its user and root can read is left to them, which is found. */
-void state_look_at_running(const struct wire_daemon *daemon, struct findings *findings);
+/* Those of a running one, with the arguments and in the folder that it was started with, if what it
+ * runs is `program`, a whole path. What only its user and root can read is left to them, which is
+ * found. */
+void state_look_at_running(const struct wire_daemon *daemon, const char *program,
+                           struct findings *findings);
 
 /* Those that a daemon would have that is started by `program` with `settings` in that domain. */
 void state_look_at_start(const char *program, const char *settings, uint32_t domain,
