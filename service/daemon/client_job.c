@@ -204,6 +204,7 @@ static bool impact_run(struct job *job, size_t item, struct responder *responder
     struct question question = attempt_question(&attempt, item);
     atomic_fetch_add(&impact->base.running, 1);
     struct answer *answer = responder_answer(responder, &question);
+    responder_settle(responder);
     atomic_fetch_sub(&impact->base.running, 1);
     /* a solve that was given up has no answer */
     if (attempt.makes_way)
@@ -232,6 +233,7 @@ static bool specimen_run(struct job *job, size_t item, struct responder *respond
     size_t before = specimen_lane_count(shared->specimens);
     atomic_fetch_add(&impact->base.running, 1);
     impact->answers[item] = specimen_lane_answer(shared->specimens, responder, &question);
+    responder_settle(responder);
     atomic_fetch_sub(&impact->base.running, 1);
     /* a client that has the reply finds its specimen announced */
     if (specimen_lane_count(shared->specimens) != before)

@@ -186,6 +186,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
     if (!limit.over)
         deliver(shared, name, answer);
     answer_release(answer);
+    responder_settle(dispatch->responder);
     snapshots_release(&shared->snapshots, snapshot);
     return !limit.over;
 }

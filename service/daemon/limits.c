@@ -221,4 +221,12 @@ void limits_fit(struct settings *settings)
              "%u of %u, vibrations %u, prepared bodies %u",
              group, space, kept, settings->token_megabytes, tokens, settings->reply_megabytes,
              replies, settings->box_megabytes, settings->body_megabytes);
+    enum { EACH_NEEDS = 4 }; /* MiB: tables of steps of a few bodies */
+    const unsigned threads = limits_solving_threads(settings);
+    if (settings->body_megabytes < EACH_NEEDS * threads)
+        log_line(LEVEL_WARNING,
+                 "memory: %u MiB are for the bodies that %u threads prepare: where a thread needs "
+                 "more than its part, each impact prepares its bodies anew; %u MiB are enough for "
+                 "most (limits.megabytes %u, or fewer workers)",
+                 settings->body_megabytes, threads, EACH_NEEDS * threads, 4 * EACH_NEEDS * threads);
 }

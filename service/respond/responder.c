@@ -237,6 +237,11 @@ static struct answer *compute(struct responder *responder, const struct question
     return encode_result(envelope, result, names, PERCUSS_MAX_SUB_IMPACTS);
 }
 
+void responder_settle(struct responder *responder)
+{
+    solve_workspace_settle(responder->workspace);
+}
+
 struct answer *responder_answer(struct responder *responder, const struct question *question)
 {
     struct fault fault;

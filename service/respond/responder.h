@@ -59,4 +59,8 @@ struct question {
  * (answer.passing). NULL: out of memory. */
 struct answer *responder_answer(struct responder *responder, const struct question *question);
 
+/* The answer is made and its result needed no more: what the solve took beyond its account is given
+ * back. */
+void responder_settle(struct responder *responder);
+
 #endif

@@ -16,10 +16,6 @@ enum percuss_status oblique_find(struct problem *problem, const struct body_set 
 /* Turns the tangential loads on a body into the planes of its axes. */
 void oblique_turn(struct problem *problem, size_t body);
 
-/* The rows' inverse masses and slips, once W and the contacts' velocities are known. False: out of
- * memory. */
-bool oblique_find_rows(struct problem *problem);
-
 /* Refuses what friction is not computed for: finite elements, and the plain law by CVODE. */
 enum percuss_status oblique_check(const struct problem *problem, struct fault *fault);
 

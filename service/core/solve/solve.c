@@ -71,6 +71,12 @@ static void keep_within_account(struct solve_workspace *workspace)
     workspace->counted = bytes;
 }
 
+void solve_workspace_settle(struct solve_workspace *workspace)
+{
+    arena_reset(&workspace->arena);
+    keep_within_account(workspace);
+}
+
 /* Clears all but the lists, which are long; their counts tell which entries are filled. */
 static void result_clear(struct solve_result *result)
 {
@@ -174,9 +180,8 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct solve_
                           const struct solve_request *request, struct solve_result *result)
 {
     result_clear(result);
-    arena_reset(&workspace->arena);
+    solve_workspace_settle(workspace);
     prepared_cache_use(workspace->cache, context->catalogue->revision);
-    keep_within_account(workspace);
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);

@@ -20,11 +20,14 @@ void solve_workspace_free(struct solve_workspace *workspace);
 /* What workspaces keep from one solve to the next. */
 struct solve_account {
     size_t most_each;    /* bytes; a solve needs its own on top */
-    atomic_size_t bytes; /* of all, each as it was at the beginning of its last solve */
+    atomic_size_t bytes; /* of all, each as it was when it settled */
 };
 
 /* From now on the workspace keeps to the account, which must outlive it. */
 void solve_workspace_join(struct solve_workspace *workspace, struct solve_account *account);
+
+/* After a solve: keeps no more than its account allows. What the last result points to is lost. */
+void solve_workspace_settle(struct solve_workspace *workspace);
 
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. Prepared bodies are cached by the catalogue's revision. An
