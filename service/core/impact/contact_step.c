@@ -660,6 +660,8 @@ static enum contact_step_end solve_plain(struct contact_step *step,
                                          const struct contact_start *start, double last)
 {
     const struct scene *scene = problem->scene;
+    size_t rows = scene_rows(scene);
+    double work = (double)(scene->frictions * rows * rows);
     if (!coulomb_prepare(&step->friction.coulomb, scene, problem->coupling, problem->level,
                          step->arena))
         return STEP_MEMORY;
@@ -668,8 +670,12 @@ static enum contact_step_end solve_plain(struct contact_step *step,
         if (end != STEP_SOLVED)
             return end;
         double first = slide_all(step, problem, start), change = first;
-        for (int sweep = 0; scene->frictions > 1 && change > last && sweep < MOST_SWEEPS; sweep++)
+        for (int sweep = 0; scene->frictions > 1 && change > last && sweep < MOST_SWEEPS; sweep++) {
+            if (!pace_keeps(step->pace, work))
+                return STEP_STOPPED;
             change = slide_all(step, problem, start);
+            step->iterations++;
+        }
         if (isnan(change) || (scene->frictions > 1 && change > last))
             return STEP_UNSOLVED;
         step->iterations++;
