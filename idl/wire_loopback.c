@@ -13,6 +13,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include "wire_ports.h"
+
 enum {
     MOST_SOCKETS = 64,
     DRAIN_ATTEMPTS = 1000,
@@ -24,11 +26,6 @@ static const dds_duration_t LEASE = DDS_MSECS(1700);
 /* The same of a client, which nobody follows: what it asked is given up. It speaks twice in it. */
 static const dds_duration_t LEASE_OF_CLIENT = DDS_SECS(3);
 
-static uint32_t first_port(uint32_t domain)
-{
-    return 7400 + 250 * domain + 10; /* RTPS 9.6.1.1 */
-}
-
 /* A client announces itself where servers are, and not to other clients: all of them would answer,
  * and renew its lease, and each of its own, for nothing. Its process takes a port behind theirs. */
 static void be_client(uint32_t domain, struct ddsi_config *config)
@@ -38,7 +35,7 @@ static void be_client(uint32_t domain, struct ddsi_config *config)
     static char addresses[WIRE_LOOPBACK_CLIENTS][sizeof "127.0.0.1:65535"];
     for (int i = 0; i < WIRE_LOOPBACK_CLIENTS; i++) {
         snprintf(addresses[i], sizeof addresses[i], "127.0.0.1:%u",
-                 (first_port(domain) + 2 * (uint32_t)i) & UINT16_MAX);
+                 wire_ports_of_index(domain, (unsigned)i) & UINT16_MAX);
         peers[i] = (struct ddsi_config_peer_listelem){
             .next = i + 1 < WIRE_LOOPBACK_CLIENTS ? &peers[i + 1] : NULL, .peer = addresses[i]};
     }
@@ -86,7 +83,8 @@ struct sockets {
 /* Unicast ports of the processes of a domain. */
 static bool is_ours(int file, uint32_t domain)
 {
-    const uint32_t first = first_port(domain), last = first + 1 + 2 * WIRE_LOOPBACK_INDICES;
+    const uint32_t first = wire_ports_of_index(domain, 0),
+                   last = first + 1 + 2 * WIRE_LOOPBACK_INDICES;
     struct sockaddr_in address = {0};
     socklen_t size = sizeof address;
     return getsockname(file, (struct sockaddr *)&address, &size) == 0 &&

@@ -67,8 +67,8 @@ static const char *without_friction(const struct percuss_slow *slow, const struc
             any = any || one->free;
             *body = one->id;
             if (!one->free && !one->fixed)
-                return engine->oblique ? " is not stated to be free, and the engine's oblique is "
-                                         "for fewer contacts"
+                return engine->oblique ? " is not stated to be free, and the engine's oblique "
+                                         "serves at most 21 contacts"
                                        : " is not stated to be free, and the engine gives no "
                                          "oblique";
         }

@@ -57,8 +57,8 @@ struct percuss_options {
     bool trace;        /* the server also writes time histories on topic percuss/v1/Trace, see
                           percuss_solve_traced */
     double deadline;   /* s from arrival until the server gives up; 0: none */
-    enum percuss_friction friction; /* law of the tangential forces of contacts with a coefficient;
-                                       plain is refused yet */
+    enum percuss_friction friction; /* law of the tangential forces of contacts with a
+                                       coefficient */
 };
 
 /* About 32 KiB; only the first body_count and contact_count elements are read. */

@@ -235,7 +235,7 @@ LOOPBACK = """<CycloneDDS><Domain Id="any">
   <Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces><AllowMulticast>false</AllowMulticast>
 </General>
 <Discovery>
-  <ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>
+  <ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>
   <Peers><Peer address="127.0.0.1"/></Peers>
 </Discovery>
 </Domain></CycloneDDS>"""

@@ -323,8 +323,8 @@ static void a_bad_matrix_of_tangents_is_found_out(void **state)
         const char *text =
             way == 0   ? "oblique: [0][0]: 70: the engine's probe has 20 1/kg for the normal"
             : way == 1 ? "the engine's oblique failed"
-                       : "friction: 0.3: s1 is not stated to be free, and the engine's oblique is "
-                         "for fewer contacts";
+                       : "friction: 0.3: s1 is not stated to be free, and the engine's oblique "
+                         "serves at most 21 contacts";
         toy->friction = 0.3;
         toy_contacts(toy, many);
         for (uint32_t i = 1; way == 2 && i < 22; i++) {
