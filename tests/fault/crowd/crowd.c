@@ -5,6 +5,7 @@
  *
  * usage: crowd DOMAIN probe|flood KIND SECONDS [--clients N] [--outstanding N] [--samples N]
  *        crowd DOMAIN steady|pass REQUESTS [--clients N] [--outstanding N] [--specimens N]
+ *              [--record FILE]
  *
  * KIND: ping, cheap, slow, long, ensemble. */
 #include "crowd.h"
@@ -206,6 +207,8 @@ static bool read_option(struct crowd *crowd, const char *name, const char *value
         crowd->specimens = (unsigned)number;
     else if (strcmp(name, "--samples") == 0)
         crowd->samples = number;
+    else if (strcmp(name, "--record") == 0)
+        crowd->record = value;
     else
         return false;
     return true;

@@ -17,7 +17,8 @@ struct crowd {
     unsigned outstanding;   /* requests of each of them */
     unsigned long requests; /* of each of them, where they are counted */
     unsigned long samples;  /* of an ensemble */
-    unsigned specimens;     /* that are hit in turn; 0: none */
+    unsigned specimens;     /* of all clients, hit in turn; 0: no strikes */
+    const char *record;     /* file for what was answered; NULL: none */
 };
 
 /* A connected client; NULL after a message. `id` NULL: a random one. */
