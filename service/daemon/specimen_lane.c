@@ -273,38 +273,37 @@ static size_t lane_find_changes(const struct question *question, const struct re
     return count;
 }
 
-/* Stores an answer with the new dents. NULL, or the message of a refusal. */
-static const char *lane_commit(struct specimen_lane *lane, const struct question *question,
-                               const struct responder *responder, const struct answer *answer,
-                               struct stored_reply *reply)
+/* Stores an answer with the new dents. After PERCUSS_INTERNAL nothing has changed. */
+static enum percuss_status lane_commit(struct specimen_lane *lane, const struct question *question,
+                                       const struct responder *responder,
+                                       const struct answer *answer, struct stored_reply *reply,
+                                       struct fault *fault)
 {
     struct specimen_change changes[PERCUSS_MAX_BODIES];
-    struct fault fault;
+    struct fault reason;
     size_t count = lane_find_changes(question, responder, changes);
     /* the reply as it is sent to a repeated request */
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
-        return "out of memory: nothing has changed, ask again";
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     /* impact and reply are stored together or not at all */
     double begun = clock_now();
-    enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &fault);
+    enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &reason);
     metrics_note_time(lane->commits, clock_now() - begun);
     free(reply->bytes);
-    if (status) {
-        log_line(LEVEL_ERROR, "%s", fault.text);
-        return "the store of specimens failed: nothing has changed, ask again";
-    }
+    if (status)
+        return fault_set(fault, status, "the store of specimens failed: %.400s", reason.text);
     /* announces the new dents */
     atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
         lane_announce_again(lane, changes[i].name);
-    return NULL;
+    return PERCUSS_OK;
 }
 
 static struct answer *lane_compute(struct specimen_lane *lane, struct responder *responder,
                                    const struct question *question, struct stored_reply *reply)
 {
-    struct fault fault;
+    struct fault fault, room;
     if (database_room_check(lane->path, &fault))
         return lane_refuse_specimen(question, PERCUSS_BUSY, fault.text);
     enum percuss_status status = lane_load_states(lane, question, &fault);
@@ -315,13 +314,13 @@ static struct answer *lane_compute(struct specimen_lane *lane, struct responder 
     struct answer *answer = responder_answer(responder, &posed);
     if (!answer || !encode_status_has_result(answer->reply->status))
         return answer;
-    const char *problem = lane_commit(lane, question, responder, answer, reply);
-    if (!problem)
+    status = lane_commit(lane, question, responder, answer, reply, &fault);
+    if (!status)
         return answer;
     answer_release(answer);
-    if (database_room_check(lane->path, &fault))
-        return lane_refuse_specimen(question, PERCUSS_BUSY, fault.text);
-    return encode_refusal(&question->envelope, PERCUSS_INTERNAL, problem);
+    if (database_room_check(lane->path, &room))
+        return lane_refuse_specimen(question, PERCUSS_BUSY, room.text);
+    return lane_refuse_specimen(question, status, fault.text);
 }
 
 /* Not stored, so that the first request of that number still finds its own reply. */

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Each dent has the members of struct dent as columns, in its order. The mark of a client is the
  * highest number among its dropped replies. A checksum covers all other columns of its row; that of
@@ -77,11 +78,39 @@ static enum percuss_status database_refuse(struct database *database, const char
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", database->path, problem);
 }
 
+/* The system's error of the last operation that failed on the log or else on the file; 0: none.
+ * sqlite3_system_errno does not tell those of a COMMIT. */
+static int system_error(struct database *database)
+{
+    sqlite3_file *log = NULL;
+    int reason = 0;
+    sqlite3_file_control(database->connection, "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
+    if (log && log->pMethods)
+        log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &reason);
+    if (reason == 0)
+        sqlite3_file_control(database->connection, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
+    return reason;
+}
+
+/* Fills in PREFIX: SQLite's message, and the system's: "disk I/O error" alone does not tell a
+ * broken disk from a read-only one. */
+static void describe(struct database *database, const char *prefix, char *text, size_t size)
+{
+    bool fails = (sqlite3_errcode(database->connection) & 0xff) == SQLITE_IOERR;
+    const char *says = sqlite3_errmsg(database->connection);
+    int reason = fails ? system_error(database) : 0;
+    if (reason)
+        snprintf(text, size, "%s: %s: %s", prefix, says, strerror(reason));
+    else
+        snprintf(text, size, "%s: %s", prefix, says);
+}
+
 enum percuss_status database_fault(struct database *database, const char *subject,
                                    struct fault *fault)
 {
-    return fault_set(fault, PERCUSS_INTERNAL, "%s: %s: %s", database->path, subject,
-                     sqlite3_errmsg(database->connection));
+    char problem[320];
+    describe(database, subject, problem, sizeof problem);
+    return fault_set(fault, PERCUSS_INTERNAL, "%s: %s", database->path, problem);
 }
 
 static bool lacks_room(struct database *database)
@@ -103,8 +132,7 @@ static enum percuss_status database_refuse_file(struct database *database, struc
     if (lacks_room(database))
         return fault_set(fault, PERCUSS_BUSY, "%s: cannot be made or brought up to date: no room",
                          database->path);
-    snprintf(problem, sizeof problem, "cannot be used as a store of specimens: %s",
-             sqlite3_errmsg(database->connection));
+    describe(database, "cannot be used as a store of specimens", problem, sizeof problem);
     return database_refuse(database, problem, fault);
 }
 
@@ -215,6 +243,16 @@ static enum percuss_status set_up(struct database *database, database_fill *fill
     return status;
 }
 
+/* SQLite opens a file that it may not write for reading; locks fail then for another reason. */
+static enum percuss_status refuse_read_only(struct database *database, const char *path,
+                                            struct fault *fault)
+{
+    char problem[160];
+    int reason = access(path, W_OK) != 0 ? errno : EACCES;
+    snprintf(problem, sizeof problem, "cannot be written: %s", strerror(reason));
+    return database_refuse(database, problem, fault);
+}
+
 enum percuss_status database_open(struct database *database, const char *path, database_fill *fill,
                                   struct fault *fault)
 {
@@ -224,6 +262,8 @@ enum percuss_status database_open(struct database *database, const char *path, d
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(path, &database->connection, flags, NULL) != SQLITE_OK)
         return database_refuse_file(database, fault);
+    if (sqlite3_db_readonly(database->connection, "main") == 1)
+        return refuse_read_only(database, path, fault);
     sqlite3_busy_timeout(database->connection, BUSY_MILLISECONDS);
     enum percuss_status status = set_up(database, fill, fault);
     if (!status && !prepare_statements(database))

@@ -89,7 +89,7 @@ bool database_run(sqlite3_stmt *statement);
 /* Rolls the transaction back, if one is open. */
 void database_roll_back(struct database *database);
 
-/* PERCUSS_INTERNAL with "FILE: subject: SQLite's message". */
+/* PERCUSS_INTERNAL with "FILE: subject: SQLite's message", and the system's where it failed. */
 enum percuss_status database_fault(struct database *database, const char *subject,
                                    struct fault *fault);
 

@@ -160,7 +160,8 @@ while strike bar-1 "$number" >"$out" 2>"$err"; do
     number=$((number + 1))
     [ "$number" -lt 60 ] || fail "the disk is never full"
 done
-shows "the store of specimens failed: nothing has changed, ask again"
+shows "bodies[1].specimen: bar-1: cannot be stored: the store of specimens failed: $store: the impact is not stored:"
+shows "nothing has changed: mend the store and ask again"
 expect 0 percuss query --a steel-sphere --b al-beam --speed 0.3
 [ "$(impacts bar-1)" = $((number - 8)) ] || fail "$(field impacts) impacts, $((number - 8)) acknowledged"
 # the log of a full disk does not fill it further
