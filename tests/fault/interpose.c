@@ -24,7 +24,7 @@ enum { DESCRIPTORS = 4096 };
 static struct {
     const char *path;
     unsigned long at;
-    bool for_good, kills;
+    bool for_good, kills, breaks;
     atomic_ulong calls;
     atomic_bool failed;
     atomic_bool watched[DESCRIPTORS];
@@ -63,7 +63,7 @@ static bool fails(bool writes)
     atomic_store(&files.failed, true);
     if (files.kills && !writes)
         raise(SIGKILL);
-    errno = writes ? ENOSPC : EIO;
+    errno = writes && !files.breaks ? ENOSPC : EIO;
     return true;
 }
 
@@ -104,7 +104,8 @@ __attribute__((constructor)) static void begin(void)
     const char *at = getenv("PERCUSS_FAULT_AT"), *what = getenv("PERCUSS_FAULT_DO");
     files.path = getenv("PERCUSS_FAULT_PATH");
     files.at = at ? strtoul(at, NULL, 10) : 0;
-    files.for_good = what && strcmp(what, "fail-on") == 0;
+    files.breaks = what && strncmp(what, "break", strlen("break")) == 0;
+    files.for_good = what && (strcmp(what, "fail-on") == 0 || strcmp(what, "break-on") == 0);
     files.kills = what && strcmp(what, "kill") == 0;
     count_file = getenv("PERCUSS_FAULT_COUNT");
     const char *clock = getenv("PERCUSS_FAULT_CLOCK");

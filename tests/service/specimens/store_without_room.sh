@@ -2,7 +2,7 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 # A store on a volume without room: the daemon starts, answers impacts, refuses those on specimens by name and
-# stores them when there is room; the log beside the store leaves room to be written back.
+# stores them when there is room and no other process has the file; the log beside it leaves room to be written back.
 if [ "${PERCUSS_OWN_MOUNTS:-}" != yes ]; then
     # root needs no namespace of users, and has none in a root of its own (chroot)
     [ "$(id -u)" = 0 ] && own="unshare --mount" || own="unshare -rm"
@@ -61,8 +61,20 @@ refused bar-1 1 0
 kill -USR1 "$daemon"
 wait_for 5 logged "store: not looked through: there is no room" || fail "not said"
 
-say "it recovers when there is room, without a restart"
+say "it recovers when there is room and no other process has the store, without a restart"
 rm "$volume/other"
+: >"$volume/specimens.db"
+: >"$work/held"
+"$peers/store_sql" "$volume/specimens.db" "BEGIN EXCLUSIVE" 60 >"$work/held" 9>&- &
+others=$!
+wait_for 10 grep -q held "$work/held" || fail "nobody holds the store"
+expect 5 strike bar-1 1
+grep -q "bodies\[1\].specimen: bar-1: cannot be stored: $volume/specimens.db: is in use by another process: nothing has changed: mend the store and ask again" "$out" ||
+    fail "not refused by name"
+expect 0 query
+kill "$others"
+wait "$others" 2>/dev/null || true
+others=
 expect 0 strike bar-1 1
 logged "info    store: .*specimens.db: there is room" || fail "not said"
 [ "$(impacts bar-1)" = 1 ] || fail "$(cat "$out")"
