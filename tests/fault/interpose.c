@@ -32,7 +32,7 @@ static struct {
 
 enum { CLOCK_SIZE = 16 };
 
-static const char *count_file, *clock_text;
+static const char *count_file, *clock_text, *read_only_file;
 
 /* The C library's function of that name. */
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
@@ -52,6 +52,15 @@ static int watch(int file, bool watched)
     if (file >= 0 && file < DESCRIPTORS)
         atomic_store(&files.watched[file], watched);
     return file;
+}
+
+/* Whether the disk refuses to be written to. */
+static bool is_read_only(void)
+{
+    if (!read_only_file || access(read_only_file, F_OK) != 0)
+        return false;
+    errno = EROFS;
+    return true;
 }
 
 /* Whether this operation fails; the end of the process is left to the caller where it writes. */
@@ -108,6 +117,7 @@ __attribute__((constructor)) static void begin(void)
     files.for_good = what && (strcmp(what, "fail-on") == 0 || strcmp(what, "break-on") == 0);
     files.kills = what && strcmp(what, "kill") == 0;
     count_file = getenv("PERCUSS_FAULT_COUNT");
+    read_only_file = getenv("PERCUSS_FAULT_READ_ONLY");
     const char *clock = getenv("PERCUSS_FAULT_CLOCK");
     int file = clock ? REAL(open)(clock, O_RDONLY | O_CLOEXEC) : -1;
     if (file < 0)
@@ -178,6 +188,8 @@ int mkstemp(char *path)
 #define ON_FILE(type, name, writes, half, parameters, ...)                                         \
     type name parameters                                                                           \
     {                                                                                              \
+        if ((writes) && is_watched(file) && is_read_only())                                        \
+            return -1;                                                                             \
         if (is_watched(file) && fails(writes)) {                                                   \
             int reason = errno;                                                                    \
             half;                                                                                  \

@@ -12,7 +12,8 @@
  * operation, 1, 2, ...; 0 or none: only count PERCUSS_FAULT_DO    fail: once; fail-on: and all
  * after it; break, break-on: the same, with EIO for writes, too; kill: the process ends by SIGKILL,
  * half way through a write PERCUSS_FAULT_COUNT file
- * that gets the number of operations at the end of the process PERCUSS_FAULT_CLOCK file of 16
+ * that gets the number of operations at the end of the process PERCUSS_FAULT_READ_ONLY file: while
+ * it is there, nothing can be written (EROFS) PERCUSS_FAULT_CLOCK file of 16
  * letters: the seconds that the time of day is off, looked at every time */
 #ifndef PERCUSS_TEST_INTERPOSE_H
 #define PERCUSS_TEST_INTERPOSE_H

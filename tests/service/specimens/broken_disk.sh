@@ -55,7 +55,8 @@ ask() {
         code=0
         strike "$1" >"$out" 2>"$err" 9>&- || code=$?
         [ "$code" -ne 0 ] || return 0
-        [ "$code" -eq 5 ] && grep -q '"message": ".*ask again' "$out" || fail "$how at $at: exit code $code"
+        [ "$code" -eq 5 ] && grep -q '"message": "\(bodies\[1\].specimen: \|the store of specimens cannot be read\)' "$out" ||
+            fail "$how at $at: exit code $code"
         refused=$((refused + 1))
     done
     return 1

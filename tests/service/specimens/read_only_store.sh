@@ -3,13 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # The volume of a store becomes read-only under the daemon, as a kernel makes it that has found an error on the disk:
 # impacts on specimens are refused by name and change nothing, others are answered, and what was acknowledged is there
-# when the volume is mounted again.
-if [ "${PERCUSS_OWN_MOUNTS:-}" != yes ]; then
-    # a user other than root may mount no disk, not even in a namespace of his own
-    [ "$(id -u)" = 0 ] && unshare --mount true 2>/dev/null && command -v mkfs.ext4 >/dev/null || {
-        echo "no disk can be mounted here (it takes root and mkfs.ext4)"
-        exit 77
-    }
+# when it can be written again. With a disk of its own, which takes root and a loop device; else with fault/interpose.c
+# in place of the disk.
+# a user other than root may mount no disk, not even in a namespace of his own
+if [ -z "${PERCUSS_OWN_MOUNTS:-}" ] && [ "$(id -u)" = 0 ] && unshare --mount true 2>/dev/null; then
     PERCUSS_OWN_MOUNTS=yes exec unshare --mount sh "$0" "$@"
 fi
 . "$(dirname "$0")/../support/lib.sh"
@@ -17,15 +14,25 @@ fi
 volume=$work/volume
 mkdir "$volume"
 trap 'umount -l "$volume" 2>/dev/null; cleanup' EXIT
-head -c 16M /dev/zero >"$work/disk"
-mkfs.ext4 -q "$work/disk"
 mount_disk() {
     mount -o loop,errors=remount-ro "$work/disk" "$volume"
 }
-mount_disk 2>"$err" || {
-    echo "no disk can be mounted here: $(cat "$err")"
-    exit 77
-}
+head -c 16M /dev/zero >"$work/disk"
+disk=no
+: >"$err"
+[ "${PERCUSS_OWN_MOUNTS:-}" != yes ] || ! mkfs.ext4 -q "$work/disk" 2>"$err" || ! mount_disk 2>"$err" || disk=yes
+if [ "$disk" = no ]; then
+    say "no disk can be mounted here: $(cat "$err")"
+    if is_sanitized thread; then
+        echo "the thread sanitizer bears nothing in front of it"
+        exit 77
+    fi
+    interpose=$(preload "$build/tests/libinterpose.so")
+    PERCUSSD=$work/percussd
+    printf '#!/bin/sh\nexec env LD_PRELOAD=%s PERCUSS_FAULT_PATH=%s PERCUSS_FAULT_READ_ONLY=%s %s "$@"\n' \
+        "$interpose" "$volume/" "$work/read-only" "$bin/percussd" >"$PERCUSSD"
+    chmod +x "$PERCUSSD"
+fi
 settings "store: $volume/specimens.db"
 
 # strike NUMBER: an impact with that number
@@ -47,6 +54,10 @@ impacts() {
 
 # break_disk: the kernel is told that it has found an error
 break_disk() {
+    [ "$disk" = yes ] || {
+        : >"$work/read-only"
+        return
+    }
     device=$(losetup -j "$work/disk" | cut -d: -f1)
     echo 1 >"/sys/fs/ext4/${device##*/}/trigger_fs_error"
 }
@@ -54,7 +65,7 @@ break_disk() {
 say "nobody makes it read-only while the store is open"
 start_daemon
 expect 0 strike 1
-expect 32 mount -o remount,ro "$volume"
+[ "$disk" = no ] || expect 32 mount -o remount,ro "$volume"
 expect 0 strike 2
 cp "$out" "$work/second"
 
@@ -75,17 +86,19 @@ cmp -s "$out" "$work/second" || fail "another reply"
 
 say "it ends in good order; on a read-only volume it does not start, and says why"
 stop_daemon
-umount "$volume"
-mount_disk
-mount -o remount,ro "$volume"
-expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
-says "specimens.db: "
-says "Read-only file system"
-expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" --check-config
-says "specimens.db: cannot be written: Read-only file system"
+if [ "$disk" = yes ]; then
+    umount "$volume"
+    mount_disk
+    mount -o remount,ro "$volume"
+    for check in "" --check-config; do
+        expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" $check
+        says "specimens.db: cannot be written: Read-only file system"
+    done
+    mount -o remount,rw "$volume"
+fi
+rm -f "$work/read-only"
 
 say "made writable again: what was acknowledged is there, what was refused is asked again and counted once"
-mount -o remount,rw "$volume"
 start_daemon
 [ "$(impacts)" = 2 ] || fail "$(cat "$out")"
 expect 0 strike 2
