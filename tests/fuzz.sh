@@ -7,6 +7,7 @@
 # once it is mended. New inputs are kept in build-fuzz/inputs from run to run.
 # usage: fuzz.sh [SECONDS [HARNESS...]]    of each harness, 5 by default; all of them
 # PERCUSS_FUZZ_SEED=N: the inputs that N gives; without it others in each run
+# PERCUSS_FUZZ_JOBS=N: so many harnesses side by side, 1 by default
 set -eu
 cd "$(dirname "$0")/.."
 seconds=${1:-5}
@@ -24,30 +25,51 @@ root=$PWD
 mkdir -p build-fuzz/findings build-fuzz/empty
 # an input that names files finds none
 cd build-fuzz/empty
-bad=0
-for harness in "$@"; do
-    inputs=$root/build-fuzz/inputs/$harness
-    log=$root/build-fuzz/$harness.log
+
+# try HARNESS: false if it found something
+try() {
+    inputs=$root/build-fuzz/inputs/$1
+    log=$root/build-fuzz/$1.log
     mkdir -p "$inputs"
     # the solver works for up to a second and a half, longer under sanitizers; readers for an instant
-    case $harness in solve) patience=60 ;; *) patience=20 ;; esac
+    case $1 in solve) patience=60 ;; *) patience=20 ;; esac
     while read -r seed; do
         if [ -d "$seed" ]; then cp "$seed"/* "$inputs"; else cp "$seed" "$inputs"; fi
-    done <"$root/build-fuzz/tests/fuzz/$harness.seeds"
+    done <"$root/build-fuzz/tests/fuzz/$1.seeds"
     code=0
-    "$root/build-fuzz/tests/fuzz/fuzz_$harness" "$inputs" -max_total_time="$seconds" \
+    "$root/build-fuzz/tests/fuzz/fuzz_$1" "$inputs" -max_total_time="$seconds" \
         -seed="${PERCUSS_FUZZ_SEED:-0}" \
         -timeout="$patience" -rss_limit_mb=3000 -malloc_limit_mb=100000 -print_final_stats=1 \
-        -artifact_prefix="$root/build-fuzz/findings/$harness-" >/dev/null 2>"$log" || code=$?
+        -artifact_prefix="$root/build-fuzz/findings/$1-" >/dev/null 2>"$log" &
+    fuzzer=$!
+    trap 'kill "$fuzzer"; exit 1' TERM
+    wait "$fuzzer" || code=$?
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     cover=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
     if [ "$code" -eq 0 ]; then
-        echo "fuzz: $harness: $runs runs, $cover edges reached"
-    else
-        bad=1
-        echo "fuzz: $harness: found something after $runs runs:"
-        grep -a -v '^#\|^INFO\|^stat::\|NEW_FUNC\|^\\|BuildId: .*fuzz_\|libFuzzer has\|Combine lib' "$log" |
-            cut -c 1-300 | tail -n 40
+        echo "fuzz: $1: $runs runs, $cover edges reached"
+        return
     fi
+    echo "fuzz: $1: found something after $runs runs:"
+    grep -a -v '^#\|^INFO\|^stat::\|NEW_FUNC\|^\\|BuildId: .*fuzz_\|libFuzzer has\|Combine lib' "$log" |
+        cut -c 1-300 | tail -n 40
+    return 1
+}
+
+# those side by side begin and end together
+bad=0
+side_by_side=
+trap 'kill $side_by_side 2>/dev/null; exit 1' INT TERM
+while [ $# -gt 0 ]; do
+    side_by_side=
+    for job in $(seq "${PERCUSS_FUZZ_JOBS:-1}"); do
+        [ $# -gt 0 ] || break
+        try "$1" &
+        side_by_side="$side_by_side $!"
+        shift
+    done
+    for job in $side_by_side; do
+        wait "$job" || bad=1
+    done
 done
 exit "$bad"
