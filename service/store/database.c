@@ -93,10 +93,12 @@ static int system_error(struct database *database)
 }
 
 /* Fills in PREFIX: SQLite's message, and the system's: "disk I/O error" alone does not tell a
- * broken disk from a read-only one. */
+ * broken disk from a read-only one, and SQLite calls a file malformed that the disk does not
+ * return. */
 static void describe(struct database *database, const char *prefix, char *text, size_t size)
 {
-    bool fails = (sqlite3_errcode(database->connection) & 0xff) == SQLITE_IOERR;
+    int code = sqlite3_errcode(database->connection) & 0xff;
+    bool fails = code == SQLITE_IOERR || code == SQLITE_CORRUPT;
     const char *says = sqlite3_errmsg(database->connection);
     int reason = fails ? system_error(database) : 0;
     if (reason)
