@@ -99,12 +99,15 @@ static bool has_loopback(void)
 }
 
 /* DDS has one code for most of what it finds wrong. */
-static dds_return_t find_reason(uint32_t domain, enum wire_side side, dds_return_t code)
+static dds_return_t find_reason(uint32_t domain, const enum wire_side *side, dds_return_t code)
 {
+    if (!side && !wire_is_configured())
+        return code;
     struct wire_ports *ports = malloc(sizeof *ports);
     bool read = code == DDS_RETCODE_ERROR && ports && wire_ports_read_own(ports);
     failed.domain = domain;
-    failed.first = side == WIRE_CLIENT && !wire_is_configured() ? WIRE_LOOPBACK_CLIENTS : 0;
+    failed.first =
+        side && *side == WIRE_CLIENT && !wire_is_configured() ? WIRE_LOOPBACK_CLIENTS : 0;
     failed.indices = read ? wire_ports_indices(ports, domain, failed.first) : 0;
     free(ports);
     if (code == DDS_RETCODE_ERROR && wire_is_configured())
@@ -114,7 +117,9 @@ static dds_return_t find_reason(uint32_t domain, enum wire_side side, dds_return
     return failed.first + failed.indices >= WIRE_LOOPBACK_INDICES ? WIRE_NO_INDEX : code;
 }
 
-static dds_entity_t create_participant(uint32_t domain, const char *security, enum wire_side side)
+/* `side`: in the built-in configuration, where CYCLONEDDS_URI states none; NULL: in DDS's own. */
+static dds_entity_t create_participant(uint32_t domain, const char *security,
+                                       const enum wire_side *side)
 {
     if (!has_descriptors())
         return WIRE_NO_DESCRIPTORS;
@@ -123,7 +128,8 @@ static dds_entity_t create_participant(uint32_t domain, const char *security, en
     if (wire_is_configured() && wire_shared_is_asked(getenv("CYCLONEDDS_URI")) &&
         !wire_shared_is_there())
         return WIRE_NO_SHARED_MEMORY;
-    dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain, side);
+    dds_return_t made =
+        wire_is_configured() || !side ? DDS_RETCODE_OK : create_domain(domain, *side);
     if (made < 0)
         return find_reason(domain, side, made);
     dds_qos_t *qos = security ? dds_create_qos() : NULL;
@@ -167,19 +173,26 @@ static void say_configured_badly(char *text, size_t size)
                  DDS_INDICES);
 }
 
+static const enum wire_side SERVER = WIRE_SERVER, CLIENT = WIRE_CLIENT;
+
 dds_entity_t wire_participant_create(uint32_t domain)
 {
-    return create_participant(domain, NULL, WIRE_SERVER);
+    return create_participant(domain, NULL, &SERVER);
 }
 
 dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security)
 {
-    return create_participant(domain, security, WIRE_SERVER);
+    return create_participant(domain, security, &SERVER);
 }
 
 dds_entity_t wire_participant_create_client(uint32_t domain, const char *security)
 {
-    return create_participant(domain, security, WIRE_CLIENT);
+    return create_participant(domain, security, &CLIENT);
+}
+
+dds_entity_t wire_participant_create_open(uint32_t domain)
+{
+    return create_participant(domain, NULL, NULL);
 }
 
 const char *wire_participant_problem(dds_return_t code)

@@ -50,6 +50,10 @@ dds_entity_t wire_participant_create_secured(uint32_t domain, const char *securi
 /* The same for a client, which asks servers and has nothing to do with other clients. */
 dds_entity_t wire_participant_create_client(uint32_t domain, const char *security);
 
+/* The same in Cyclone DDS's own configuration where CYCLONEDDS_URI states none: other machines are
+ * heard. */
+dds_entity_t wire_participant_create_open(uint32_t domain);
+
 /* Whether CYCLONEDDS_URI configures the network, so that other machines may be heard. */
 bool wire_is_configured(void);
 

@@ -292,6 +292,20 @@ static void print_text(const struct findings *findings)
                warnings == 1 ? "" : "s");
 }
 
+/* What is not UTF-8, as a path may be, with ? for its bytes beyond ASCII. */
+static json_t *printable(const char *text)
+{
+    json_t *whole = json_string(text);
+    if (whole)
+        return whole;
+    char plain[sizeof((struct finding *)0)->found];
+    snprintf(plain, sizeof plain, "%s", text);
+    for (char *at = plain; *at; at++)
+        if (*at & 0x80)
+            *at = '?';
+    return json_string(plain);
+}
+
 static void print_json(const struct findings *findings)
 {
     json_t *root = json_object(), *list = json_array();
@@ -302,9 +316,10 @@ static void print_json(const struct findings *findings)
     json_object_set_new(root, "findings", list);
     for (size_t i = 0; i < findings->count; i++) {
         const struct finding *finding = &findings->each[i];
-        json_array_append_new(
-            list, json_pack("{ssssssss}", "level", finding_level_name(finding->level), "subject",
-                            finding->subject, "found", finding->found, "advice", finding->advice));
+        json_array_append_new(list, json_pack("{sssssoso}", "level",
+                                              finding_level_name(finding->level), "subject",
+                                              finding->subject, "found", printable(finding->found),
+                                              "advice", printable(finding->advice)));
     }
     json_print(root);
 }

@@ -34,6 +34,9 @@ void arrivals_hear_samples(dds_listener_t *listener, struct arrivals *arrivals);
 void arrivals_hear_writers(dds_listener_t *listener, struct arrivals *arrivals);
 void arrivals_hear_readers(dds_listener_t *listener, struct arrivals *arrivals);
 
+/* What came was not taken: the next wait ends at once. */
+void arrivals_again(struct arrivals *arrivals);
+
 /* Waits up to so many seconds; all false: nothing has come. One thread at a time. */
 struct arrival arrivals_await(struct arrivals *arrivals, double seconds);
 

@@ -299,6 +299,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
         if (result == PERCUSS_RESULT_OK)
             result = take_all(client, ensemble_reader, take_ensemble_replies);
     }
+    if (result != PERCUSS_RESULT_OK)
+        arrivals_again(&client->arrivals);
 
     pthread_mutex_lock(&client->lock);
     if (came.newcomer)

@@ -338,7 +338,7 @@ static bool bridge_open(struct bridge *bridge, const struct bridge_config *confi
     }
     if (percuss_client_warning(bridge->line.client, warning))
         say("warning: %s", warning);
-    bridge->participant = config->network ? dds_create_participant(config->ros_domain, NULL, NULL)
+    bridge->participant = config->network ? wire_participant_create_open(config->ros_domain)
                                           : wire_participant_create(config->ros_domain);
     if (bridge->participant < 0) {
         say("DDS domain %u: %s", config->ros_domain, wire_participant_problem(bridge->participant));

@@ -7,41 +7,26 @@
 #include <string.h>
 
 #include "base/extremes.h"
+#include "numeric/lagrange.h"
 #include "numeric/linear.h"
 
 /* Of Radau's right rule with four points: the zeros of P4 - P3 on 0..1. */
 static const double POINT[NODES] = {0.088587959512703947396, 0.40946686444073471087,
                                     0.78765946176084705603, 1.0};
 
-/* Lagrange's polynomials through `count` places, at s: their values, or their derivatives. */
-static void lagrange(const double *place, size_t count, double s, double *value, double *slope)
-{
-    for (size_t j = 0; j < count; j++) {
-        double product = 1.0, sum = 0.0;
-        for (size_t i = 0; i < count; i++) {
-            if (i == j)
-                continue;
-            double width = place[j] - place[i];
-            sum = (sum * (s - place[i]) + product) / width;
-            product *= (s - place[i]) / width;
-        }
-        *(slope ? &slope[j] : &value[j]) = slope ? sum : product;
-    }
-}
-
 static void set_polynomials(struct coulomb_points *points)
 {
     double way[WAY_POINTS] = {0.0}, quartic[NODES + 1] = {0.0}, slopes[NODES + 1];
     memcpy(quartic + 1, POINT, sizeof POINT);
-    lagrange(POINT, NODES, 0.0, points->at_start, NULL);
+    lagrange_values(POINT, NODES, 0.0, points->at_start);
     memcpy(way + 1, collocation.node, sizeof collocation.node);
     way[WAY_POINTS - 1] = 1.0;
     for (int i = 0; i < NODES; i++) {
-        lagrange(way, WAY_POINTS, POINT[i], NULL, points->rate[i]);
-        lagrange(way, WAY_POINTS, collocation.node[i], NULL, points->node_rate[i]);
-        lagrange(POINT, NODES, collocation.node[i], points->to_node[i], NULL);
-        lagrange(collocation.node, NODES, POINT[i], points->from_node[i], NULL);
-        lagrange(quartic, NODES + 1, POINT[i], NULL, slopes);
+        lagrange_slopes(way, WAY_POINTS, POINT[i], points->rate[i]);
+        lagrange_slopes(way, WAY_POINTS, collocation.node[i], points->node_rate[i]);
+        lagrange_values(POINT, NODES, collocation.node[i], points->to_node[i]);
+        lagrange_values(collocation.node, NODES, POINT[i], points->from_node[i]);
+        lagrange_slopes(quartic, NODES + 1, POINT[i], slopes);
         points->jump[i] = slopes[0] - points->rate[i][0];
     }
 }

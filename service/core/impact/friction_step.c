@@ -4,18 +4,9 @@
 #include "impact/friction_step.h"
 
 #include <math.h>
-#include <string.h>
 
-/* Lagrange's polynomials through `count` places, at s. */
-static void lagrange(const double *place, size_t count, double s, double *value)
-{
-    for (size_t j = 0; j < count; j++) {
-        value[j] = 1.0;
-        for (size_t i = 0; i < count; i++)
-            if (i != j)
-                value[j] *= (s - place[i]) / (place[j] - place[i]);
-    }
-}
+#include "numeric/lagrange.h"
+#include <string.h>
 
 /* The start, the nodes and the end. */
 static const size_t INNER = NODES + 1, ALL = NODES + 2;
@@ -29,9 +20,9 @@ static void set_polynomials(struct friction_points *points)
     for (int p = 0; p < FRICTION_PARTS; p++) {
         double share = (p + 1.0) / FRICTION_PARTS;
         for (int i = 0; i < NODES; i++)
-            lagrange(place, INNER, place[i] + share * (place[i + 1] - place[i]),
-                     points->to_node[i][p]);
-        lagrange(place, ALL, place[NODES] + share * (1.0 - place[NODES]), points->to_end[p]);
+            lagrange_values(place, INNER, place[i] + share * (place[i + 1] - place[i]),
+                            points->to_node[i][p]);
+        lagrange_values(place, ALL, place[NODES] + share * (1.0 - place[NODES]), points->to_end[p]);
     }
 }
 
