@@ -13,7 +13,7 @@ fi
 
 volume=$work/volume
 mkdir "$volume"
-trap 'umount -l "$volume" 2>/dev/null; cleanup' EXIT
+trap 'umount -l "$volume" 2>/dev/null || true; cleanup' EXIT
 mount_disk() {
     mount -o loop,errors=remount-ro "$work/disk" "$volume"
 }
