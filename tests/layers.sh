@@ -32,6 +32,14 @@ allowed() {
     esac
 }
 
+# includes [brackets=1] FILE...: "FILE HEADER" a line, of all in quotes, and with the one of those in brackets
+includes() {
+    awk '/^ *# *include *"[^"]*"/ || (brackets && /^ *# *include *<[^>]*>/) {
+        split($0, part, /["<>]/)
+        print FILENAME " " part[2]
+    }' "$@"
+}
+
 bad=0
 checked=0
 complain() {
@@ -44,34 +52,36 @@ for folder in service/core/*/ service/tools/*/ service/*/; do
     layer=$(basename "$folder")
     list=$(allowed "$layer")
     [ -n "$list" ] || complain "$folder is in no layer: add it to tests/layers.sh and docs/architecture.md"
-    for file in "$folder"*.[ch] "$folder"*/*.[ch]; do
-        [ -e "$file" ] || continue
-        checked=$((checked + 1))
-        for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
-            case $include in
-            percuss/vocabulary.h | percuss/fields.h | percuss/plausible.h | percuss/habits.h) continue ;;
-            percuss_wire.h | wire_partition.h)
-                case $layer in exchange | respond | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
-                continue
-                ;;
-            wire.h | wire_clock.h | wire_security.h | wire_validity.h | wire_whole.h)
-                case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
-                continue
-                ;;
-            esac
-            target=${include%%/*}
-            case " $list " in
-            *" $target "*) ;;
-            *) complain "$file ($layer) includes $include" ;;
-            esac
-        done
-    done
+    # the folder's sources, and those of a folder below
+    # shellcheck disable=SC2046
+    set -- $(find "$folder" -maxdepth 2 -name '*.[ch]')
+    checked=$((checked + $#))
+    [ $# -gt 0 ] || continue
+    while read -r file include; do
+        case $include in
+        "" | percuss/vocabulary.h | percuss/fields.h | percuss/plausible.h | percuss/habits.h) continue ;;
+        percuss_wire.h | wire_partition.h)
+            case $layer in exchange | respond | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
+            continue
+            ;;
+        wire.h | wire_clock.h | wire_security.h | wire_validity.h | wire_whole.h)
+            case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
+            continue
+            ;;
+        esac
+        target=${include%%/*}
+        case " $list " in
+        *" $target "*) ;;
+        *) complain "$file ($layer) includes $include" ;;
+        esac
+    done <<EOF
+$(includes "$@")
+EOF
 done
 
 # no module (a .c and a .h of one name) includes itself round: the shortest way through each that does
-rounds=$(for file in $(find service -name '*.[ch]') client/*/*.[ch] client/include/*/*.h; do
-    sed -n 's/^ *# *include *["<]\([^">]*\)[">].*/\1/p' "$file" | sed "s|^|$file |"
-done | awk '
+# shellcheck disable=SC2046
+rounds=$(includes brackets=1 $(find service -name '*.[ch]') client/*/*.[ch] client/include/*/*.h | awk '
     function module(path) { sub(/\.[ch]$/, "", path); sub(/^service\/((core|tools)\/)?/, "", path); return path }
     {
         folder = $1
