@@ -5,6 +5,7 @@
 
 #include <time.h>
 
+#include "model/ritz_store.h"
 #include "physics/estimates/invariants.h"
 
 /* Of a solution by CVODE: its right-hand sides are many and cheap. Its steps follow the highest
@@ -350,6 +351,9 @@ void campaign_run(struct campaign *campaign, const struct campaign_settings *set
     *campaign = (struct campaign){.settings = *settings, .lab = lab_create()};
     campaign->room = truth_room_create();
     assert_non_null(campaign->room);
+    /* A solid's vibration takes seconds: references take the answers'. */
+    campaign->lab->set.boxes = ritz_store_create(RITZ_STORE_BYTES);
+    assert_non_null(campaign->lab->set.boxes);
     for (uint64_t n = settings->first; n < settings->first + settings->count; n++)
         run_scene(campaign, n);
 }
@@ -361,6 +365,8 @@ void campaign_release(struct campaign *campaign)
         for (int s = 0; s < CAMPAIGN_STRATA; s++)
             tally_free(&campaign->strata[s][t]);
     }
+    struct ritz_store *boxes = campaign->lab->set.boxes;
     truth_room_free(campaign->room);
     lab_free(campaign->lab);
+    ritz_store_free(boxes);
 }
