@@ -19,7 +19,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 count() { # count PROGRAM SCENE bar|mesh MODES [free]
-    valgrind --tool=callgrind --toggle-collect=counted_solve --callgrind-out-file="$work/out" \
+    valgrind --tool=callgrind --instr-atstart=no --toggle-collect=counted_solve --callgrind-out-file="$work/out" \
         "$@" >"$work/log" 2>&1 || {
         cat "$work/log" >&2
         return 1

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "bodies/made_mesh.h"
+#include "counting.h"
 #include "model/mesh_surface.h"
 #include "scenes.h"
 
@@ -83,6 +84,7 @@ int main(int argc, char **argv)
     enum percuss_status status = good ? PERCUSS_OK : PERCUSS_INTERNAL;
     for (int i = 0; i < 2 && !status; i++)
         status = solve(workspace, &means, &request, &result);
+    counting_begins();
     if (!status)
         status = counted_solve(workspace, &means, &request, &result);
     printf("%s %s: e = %.9f, %zu modes, %u sub-impacts, %s\n", argv[1], argv[2],

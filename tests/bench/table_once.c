@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "catalogue/catalogue.h"
+#include "counting.h"
 #include "solve/solve.h"
 #include "store/table_store.h"
 
@@ -74,6 +75,7 @@ int main(int argc, char **argv)
         blow(table ? PERCUSS_CONTACT_TABLE : PERCUSS_CONTACT_HERTZ, strtod(argv[3], NULL));
     for (int i = 0; i < 2 && !status; i++)
         status = solve(workspace, &means, &request, &result);
+    counting_begins();
     if (!status)
         status = counted_solve(workspace, &means, &request, &result);
     printf("%s %s: e = %.9f\n", argv[2], argv[3], result.contacts[0].restitution);
