@@ -3,6 +3,7 @@
 
 #include "wire_security.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <limits.h>
 #include <openssl/pem.h>
@@ -28,19 +29,19 @@ static const struct {
     {"permissions.p7s", "dds.sec.access.permissions", false},
 };
 
-/* Cyclone DDS's plugins. */
+/* Plugins: Cyclone DDS's, and those of wire_permissions.h in the library that has them (NULL). */
 static const struct {
     const char *property, *value;
 } plugins[] = {
     {"dds.sec.auth.library.path", "dds_security_auth"},
     {"dds.sec.auth.library.init", "init_authentication"},
     {"dds.sec.auth.library.finalize", "finalize_authentication"},
-    {"dds.sec.access.library.path", "dds_security_ac"},
-    {"dds.sec.access.library.init", "init_access_control"},
-    {"dds.sec.access.library.finalize", "finalize_access_control"},
-    {"dds.sec.crypto.library.path", "dds_security_crypto"},
-    {"dds.sec.crypto.library.init", "init_crypto"},
-    {"dds.sec.crypto.library.finalize", "finalize_crypto"},
+    {"dds.sec.access.library.path", NULL},
+    {"dds.sec.access.library.init", "percuss_plugin_access_init"},
+    {"dds.sec.access.library.finalize", "percuss_plugin_access_end"},
+    {"dds.sec.crypto.library.path", NULL},
+    {"dds.sec.crypto.library.init", "percuss_plugin_crypto_init"},
+    {"dds.sec.crypto.library.finalize", "percuss_plugin_crypto_end"},
 };
 
 enum { FILE_COUNT = sizeof files / sizeof *files, PLUGIN_COUNT = sizeof plugins / sizeof *plugins };
@@ -133,11 +134,27 @@ bool wire_security_remark(const char *folder, const struct wire_validity *validi
     return true;
 }
 
+/* Of idl/plugins/wire_plugins.c, in the programs and libraries that open secured participants. */
+extern const char *const wire_plugin_library __attribute__((weak));
+
+/* The name by which DDS loads this program or library as one of plugins; of a program that has no
+ * plugins one that is not there, so that its participants are refused. */
+static const char *find_plugins(void)
+{
+    Dl_info about;
+    if (!&wire_plugin_library)
+        return "percuss-plugins-that-this-program-lacks";
+    if (*wire_plugin_library)
+        return wire_plugin_library;
+    return dladdr(&wire_plugin_library, &about) ? about.dli_fname : "";
+}
+
 void wire_security_set(const char *folder, dds_qos_t *qos)
 {
     char name[PATH_MAX + sizeof "file:"];
     for (size_t i = 0; i < PLUGIN_COUNT; i++)
-        dds_qset_prop(qos, plugins[i].property, plugins[i].value);
+        dds_qset_prop(qos, plugins[i].property,
+                      plugins[i].value ? plugins[i].value : find_plugins());
     for (size_t i = 0; i < FILE_COUNT; i++) {
         snprintf(name, sizeof name, "file:%s/%s", folder, files[i].file);
         dds_qset_prop(qos, files[i].property, name);
