@@ -166,6 +166,21 @@ static void say_revoked(const X509 *certificate, DDS_Security_SecurityException 
                                subject);
 }
 
+/* Whether the participant with these permissions, which are known, may be believed; a list that
+ * came meanwhile has it already. */
+static bool is_believed(int64_t handle, DDS_Security_SecurityException *exception)
+{
+    pthread_mutex_lock(&lock);
+    const struct known *known = known_find(handle);
+    const bool believed = known && known->certificate && !is_revoked(known->certificate);
+    if (known && known->certificate && !believed) {
+        atomic_fetch_add(&refused, 1);
+        say_revoked(known->certificate, exception);
+    }
+    pthread_mutex_unlock(&lock);
+    return believed;
+}
+
 static DDS_Security_PermissionsHandle validate_remote_permissions(
     dds_security_access_control *access, const dds_security_authentication *authentication,
     const DDS_Security_IdentityHandle own, const DDS_Security_IdentityHandle remote,
@@ -173,26 +188,20 @@ static DDS_Security_PermissionsHandle validate_remote_permissions(
     const DDS_Security_AuthenticatedPeerCredentialToken *credential,
     DDS_Security_SecurityException *exception)
 {
+    const int64_t handle = access_behind.validate_remote_permissions(
+        access, authentication, own, remote, permissions, credential, exception);
+    if (!handle)
+        return handle;
     struct known *known = calloc(1, sizeof *known);
     if (known)
         *known = (struct known){.access = access, .certificate = read_certificate(credential)};
-    bool good = known && known->certificate;
-    pthread_mutex_lock(&lock);
-    const bool is_on_list = good && is_revoked(known->certificate);
-    pthread_mutex_unlock(&lock);
-    if (is_on_list) {
-        atomic_fetch_add(&refused, 1);
-        say_revoked(known->certificate, exception);
-    }
-    int64_t handle = DDS_SECURITY_HANDLE_NIL;
-    if (good && !is_on_list)
-        handle = access_behind.validate_remote_permissions(access, authentication, own, remote,
-                                                           permissions, credential, exception);
-    if (handle)
-        known_keep(known, handle);
-    else
-        known_free(known);
-    return handle;
+    known_keep(known, handle);
+    if (is_believed(handle, exception))
+        return handle;
+    DDS_Security_SecurityException none = DDS_SECURITY_EXCEPTION_INIT;
+    access->return_permissions_handle(access, handle, &none);
+    DDS_Security_Exception_reset(&none);
+    return DDS_SECURITY_HANDLE_NIL;
 }
 
 static DDS_Security_boolean return_permissions_handle(dds_security_access_control *access,

@@ -13,9 +13,8 @@
 #ifndef PERCUSS_WIRE_PERMISSIONS_H
 #define PERCUSS_WIRE_PERMISSIONS_H
 
-#include <openssl/x509.h>
-
 struct ddsi_domaingv;
+struct X509_crl_st; /* OpenSSL's X509_CRL */
 
 /* As Cyclone DDS loads its plugins: 0 is success. */
 int wire_permissions_access_init(const char *argument, void **context,
@@ -27,7 +26,7 @@ int wire_permissions_crypto_end(void *context);
 
 /* Takes a list of revoked certificates, or NULL, in place of the last one, for all participants of
  * the process, and cuts off those that are on it: returns how many. Any thread but DDS's. */
-unsigned wire_permissions_revoke(X509_CRL *list);
+unsigned wire_permissions_revoke(struct X509_crl_st *list);
 
 /* How many were refused or cut off so far, as their certificates are revoked. Thread-safe. */
 unsigned long long wire_permissions_refused(void);

@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "wire_permissions.h"
 #include "wire_validity.h"
 
 /* Files of an identity, and the properties that name them (DDS Security 1.1, 9.3.1 and 9.4.1). */
@@ -100,6 +101,55 @@ static bool dates_fit(const char *folder, char *problem, size_t size)
     return false;
 }
 
+/* The first certificate in a file of the folder; NULL: none. */
+static X509 *read_certificate(const char *folder, const char *name)
+{
+    FILE *file = open_file(folder, name);
+    X509 *certificate = file ? PEM_read_X509(file, NULL, NULL, NULL) : NULL;
+    if (file)
+        fclose(file);
+    return certificate;
+}
+
+/* The list of revoked certificates; NULL: there is no crl.pem, or with a problem. Its own dates do
+ * not matter: who was revoked stays so. */
+static X509_CRL *read_list(const char *folder, char *problem, size_t size)
+{
+    problem[0] = 0;
+    FILE *file = open_file(folder, "crl.pem");
+    if (!file && errno == ENOENT)
+        return NULL;
+    X509_CRL *list = file ? PEM_read_X509_CRL(file, NULL, NULL, NULL) : NULL;
+    X509 *authority = read_certificate(folder, "identity_ca.pem");
+    if (!file)
+        snprintf(problem, size, "security: %s/crl.pem: %s", folder, strerror(errno));
+    else if (!list || !authority || X509_CRL_verify(list, X509_get0_pubkey(authority)) != 1)
+        snprintf(problem, size,
+                 "security: %s/crl.pem: must be a list of revoked certificates (PEM) that "
+                 "identity_ca.pem has signed",
+                 folder);
+    X509_free(authority);
+    if (file)
+        fclose(file);
+    if (!problem[0])
+        return list;
+    X509_CRL_free(list);
+    return NULL;
+}
+
+/* Nobody believes what is revoked. */
+static bool list_fits(const char *folder, char *problem, size_t size)
+{
+    X509_CRL *list = read_list(folder, problem, size);
+    X509 *own = read_certificate(folder, "cert.pem");
+    X509_REVOKED *entry;
+    if (list && own && X509_CRL_get0_by_cert(list, &entry, own) == 1)
+        snprintf(problem, size, "security: %s/cert.pem: is revoked, by crl.pem", folder);
+    X509_free(own);
+    X509_CRL_free(list);
+    return !problem[0];
+}
+
 bool wire_security_check(const char *folder, char *problem, size_t size)
 {
     char path[PATH_MAX];
@@ -118,7 +168,7 @@ bool wire_security_check(const char *folder, char *problem, size_t size)
         snprintf(problem, size, "security: %s: key.pem must be the key of cert.pem", folder);
         return false;
     }
-    return dates_fit(folder, problem, size);
+    return dates_fit(folder, problem, size) && list_fits(folder, problem, size);
 }
 
 bool wire_security_remark(const char *folder, const struct wire_validity *validity, time_t then,
@@ -132,6 +182,23 @@ bool wire_security_remark(const char *folder, const struct wire_validity *validi
     else
         return false;
     return true;
+}
+
+bool wire_security_revoke(const char *folder, struct wire_revocation *found, char *problem,
+                          size_t size)
+{
+    X509_CRL *list = read_list(folder, problem, size);
+    if (problem[0])
+        return false;
+    const int listed = list ? sk_X509_REVOKED_num(X509_CRL_get_REVOKED(list)) : 0;
+    found->listed = listed > 0 ? (unsigned)listed : 0;
+    found->cut_off = wire_permissions_revoke(list);
+    return true;
+}
+
+unsigned long long wire_security_refused(void)
+{
+    return wire_permissions_refused();
 }
 
 /* Of idl/plugins/wire_plugins.c, in the programs and libraries that open secured participants. */
@@ -151,7 +218,9 @@ static const char *find_plugins(void)
 
 void wire_security_set(const char *folder, dds_qos_t *qos)
 {
-    char name[PATH_MAX + sizeof "file:"];
+    char name[PATH_MAX + sizeof "file:"], problem[PATH_MAX + 128];
+    struct wire_revocation revocation;
+    wire_security_revoke(folder, &revocation, problem, sizeof problem);
     for (size_t i = 0; i < PLUGIN_COUNT; i++)
         dds_qset_prop(qos, plugins[i].property,
                       plugins[i].value ? plugins[i].value : find_plugins());

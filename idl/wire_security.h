@@ -14,8 +14,10 @@
 
 /* Whether the folder has every file that an identity needs, readable, a private key that nobody but
  * its owner can read and that is the certificate's, and certificates and permissions that hold
- * today (wire_validity.h). False: `problem` says which file is wrong and what it must be, or when
- * it ended. What else stands in the files DDS checks when a participant is made. */
+ * today (wire_validity.h); and, where there is a list of revoked certificates, that it is the
+ * authority's and does not have this one. False: `problem` says which file is wrong and what it
+ * must be, or when it ended. What else stands in the files DDS checks when a participant is made.
+ */
 bool wire_security_check(const char *folder, char *problem, size_t size);
 
 /* Whether whoever uses the folder is to be told of its dates: that it ends within 30 days from
@@ -24,7 +26,23 @@ bool wire_security_check(const char *folder, char *problem, size_t size);
 bool wire_security_remark(const char *folder, const struct wire_validity *validity, time_t then,
                           char *remark, size_t size);
 
-/* Properties of a participant that uses the folder, which wire_security_check has found good. */
+/* What a look at the folder's list of revoked certificates, crl.pem, came to. */
+struct wire_revocation {
+    unsigned listed;  /* certificates; 0: no list, or an empty one */
+    unsigned cut_off; /* participants that were there and are on it */
+};
+
+/* Reads the list anew, for all participants of this process (wire_permissions.h). A folder without
+ * crl.pem revokes none. False: it is no list that identity_ca.pem has signed, as `problem` says,
+ * and the last list stays. */
+bool wire_security_revoke(const char *folder, struct wire_revocation *found, char *problem,
+                          size_t size);
+
+/* How many participants were refused or cut off so far, as their certificates are revoked. */
+unsigned long long wire_security_refused(void);
+
+/* Properties of a participant that uses the folder, which wire_security_check has found good; its
+ * list of revoked certificates is read. */
 void wire_security_set(const char *folder, dds_qos_t *qos);
 
 #endif

@@ -6,6 +6,7 @@
 # daemon, each client and each onlooker. What no permission allows is denied.
 # usage: percuss-keys.sh create DIR             the authority, in DIR/authority, to be kept off the network
 #        percuss-keys.sh add DIR NAME ROLE      the identity DIR/NAME, to be taken where it is used
+#        percuss-keys.sh revoke DIR NAME        no longer: DIR/authority/crl.pem, for the folder of each daemon
 # ROLE: serves (percussd), asks, administers (asks, and clears specimens), observes (sees who serves what)
 # PERCUSS_KEY_DAYS: how long what is made holds, from now (default 825)
 set -eu
@@ -148,10 +149,14 @@ $(rules "$2")
 END
 }
 
-add() {
+check_name() {
     case $1 in
     '' | authority | -* | *[!A-Za-z0-9_-]*) fail "NAME: '$1': letters, digits, _ and - are allowed" ;;
     esac
+}
+
+add() {
+    check_name "$1"
     case $2 in
     serves | asks | administers | observes) ;;
     *) fail "ROLE: '$2': must be serves, asks, administers or observes" ;;
@@ -169,9 +174,45 @@ add() {
     permissions "$1" "$2" >"$part/permissions.xml"
     sign "$part/permissions.xml" "$part/permissions.p7s"
     cp "$authority/identity_ca.pem" "$authority/permissions_ca.pem" "$authority/governance.p7s" "$part"
+    [ ! -e "$authority/crl.pem" ] || cp "$authority/crl.pem" "$part"
+    mkdir -p "$authority/issued"
+    cp "$part/cert.pem" "$authority/issued/$1.$(openssl x509 -in "$part/cert.pem" -noout -serial | cut -d= -f2).pem"
     rm "$part/request" "$part/permissions.xml"
     chmod 0600 "$part"/*
     mv "$part" "$root/$1"
+}
+
+# database COMMAND...: openssl ca, whose record of the revoked is authority/revoked
+database() {
+    settings=$(mktemp)
+    printf '%s\n' '[ca]' 'default_ca = one' '[one]' "database = $authority/revoked" 'default_md = sha256' \
+        'unique_subject = no' >"$settings"
+    openssl ca -config "$settings" -cert "$authority/identity_ca.pem" -keyfile "$authority/identity_ca.key" "$@" \
+        2>"$settings.said" || {
+        cat "$settings.said" >&2
+        rm -f "$settings" "$settings.said"
+        return 1
+    }
+    rm -f "$settings" "$settings.said"
+}
+
+# all certificates of that name; authorities of percuss 0.2.0 have no copies of them
+revoke() {
+    check_name "$1"
+    [ -e "$authority/identity_ca.key" ] || fail "$authority: is not there"
+    [ -e "$authority/revoked" ] || : >"$authority/revoked"
+    found=
+    for certificate in "$authority/issued/$1".*.pem "$root/$1/cert.pem"; do
+        [ -e "$certificate" ] || continue
+        found=yes
+        serial=$(openssl x509 -in "$certificate" -noout -serial | cut -d= -f2)
+        ! cut -f 4 "$authority/revoked" | grep -qxi "0*$serial" || continue
+        database -revoke "$certificate" || fail "$1: cannot be revoked"
+    done
+    [ -n "$found" ] || fail "$1: no certificate of that name in $authority/issued or $root"
+    database -gencrl -crldays "$days" -out "$authority/crl.new" || fail "no list of the revoked"
+    mv "$authority/crl.new" "$authority/crl.pem"
+    echo "percuss-keys: copy $authority/crl.pem into the folder of each daemon and reload it: $1 is refused then"
 }
 
 [ $# -ge 2 ] || usage
@@ -180,5 +221,6 @@ authority=$root/authority
 case $1:$# in
 create:2) create ;;
 add:4) add "$3" "$4" ;;
+revoke:3) revoke "$3" ;;
 *) usage ;;
 esac

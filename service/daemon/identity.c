@@ -31,6 +31,19 @@ void identity_look(struct identity *identity, double now, time_t then)
                  identity->folder, words);
 }
 
+void identity_revoke(const char *folder)
+{
+    char problem[512];
+    struct wire_revocation found;
+    if (!folder)
+        return;
+    if (!wire_security_revoke(folder, &found, problem, sizeof problem))
+        log_line(LEVEL_ERROR, "%s; the last list stays", problem);
+    else if (found.listed)
+        log_line(LEVEL_INFO, "security: %s/crl.pem: %u certificates are revoked, %u cut off now",
+                 folder, found.listed, found.cut_off);
+}
+
 bool identity_remark(const char *folder, char *remark, size_t size)
 {
     struct wire_validity validity;

@@ -26,6 +26,10 @@ void identity_read(struct identity *identity, const char *folder);
  * the time of day. */
 void identity_look(struct identity *identity, double now, time_t then);
 
+/* Reads the folder's list of revoked certificates anew, and logs what it has and whom it cuts off;
+ * a bad one is logged, and the last one stays. `folder`: NULL: not secured. */
+void identity_revoke(const char *folder);
+
 /* Writes a remark on an identity that is good, but not for long. False: there is none. */
 bool identity_remark(const char *folder, char *remark, size_t size);
 

@@ -93,6 +93,7 @@ static bool open_endpoint(struct service *service, const uint8_t *server, struct
     if (!shared->endpoint)
         return false;
     identity_read(&service->identity, security);
+    identity_revoke(service->identity.folder);
     shared->identity_end = service->identity.validity.end;
     identity_look(&service->identity, clock_now(), time(NULL));
     if (!shared->specimens)
@@ -269,6 +270,7 @@ static void load_again(struct service *service)
 void service_reload(struct service *service)
 {
     reducer_retry(&service->reducer);
+    identity_revoke(service->identity.folder);
     load_again(service);
 }
 

@@ -18,6 +18,7 @@
 #include "exchange/clock.h"
 #include "exchange/text.h"
 #include "model/ritz_store.h"
+#include "wire_security.h"
 
 /* Whether a task stands before another one. */
 static bool task_precedes(const struct task *task, const struct task *other)
@@ -204,6 +205,12 @@ static void metrics_print_state(struct shared *shared, FILE *file)
             "# TYPE percuss_undelivered counter\n"
             "percuss_undelivered_total %llu\n",
             atomic_load(&shared->undelivered));
+    fprintf(file,
+            "# HELP percuss_revoked Participants refused or cut off, as their certificates are "
+            "revoked.\n"
+            "# TYPE percuss_revoked counter\n"
+            "percuss_revoked_total %llu\n",
+            wire_security_refused());
 }
 
 /* A part of what is kept from one request to the next, and the most that it may be. */
