@@ -139,8 +139,11 @@ static bool check_bodies(const struct settings *settings)
 static bool check_store(const struct settings *settings)
 {
     struct fault fault;
+    char remark[256];
     if (!settings->store[0])
         return true;
+    if (database_remark_volume(settings->store, remark, sizeof remark))
+        fprintf(stderr, "percussd: warning: store: %s: %s\n", settings->store, remark);
     if (database_room_check(settings->store, &fault))
         fprintf(stderr, "percussd: warning: store: %s: %s\n", settings->store, fault.text);
     if (database_check(settings->store, SCHEMA_VERSION, &fault) == PERCUSS_OK)

@@ -20,6 +20,7 @@
 #include "daemon/store_job.h"
 #include "exchange/clock.h"
 #include "respond/responder.h"
+#include "store/database_check.h"
 #include "wire_clock.h"
 
 /* Ensembles that run side by side, each of another client and with threads of its own. */
@@ -58,6 +59,9 @@ struct service {
 static bool open_specimens(struct shared *shared, struct fault *fault)
 {
     const struct settings *settings = shared->settings;
+    char remark[256];
+    if (settings->store[0] && database_remark_volume(settings->store, remark, sizeof remark))
+        log_line(LEVEL_WARNING, "store: %s: %s", settings->store, remark);
     return !settings->store[0] ||
            specimen_lane_open(settings->store, settings->stored_replies, &shared->metrics.commits,
                               &shared->specimens, fault) == PERCUSS_OK;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -105,13 +106,46 @@ static enum percuss_status check_header(const char *path, int file, int version,
     return database_check_refuse(path, problem, fault);
 }
 
-enum percuss_status database_room_check(const char *path, struct fault *fault)
+/* That the file lies in, with its last slash. */
+static void find_folder(const char *path, char *folder, size_t size)
 {
     const char *slash = strrchr(path, '/');
+    snprintf(folder, size, "%.*s", slash ? (int)(slash + 1 - path) : 1, slash ? path : ".");
+}
+
+bool database_remark_volume(const char *path, char *remark, size_t size)
+{
+    /* statfs(2); FUSE is any of sshfs, GlusterFS and the like */
+    static const struct {
+        unsigned long type;
+        const char *name;
+    } shared[] = {{0x6969, "NFS"},    {0xff534d42, "CIFS"},   {0xfe534d42, "SMB"},
+                  {0x517b, "SMB"},    {0x65735546, "FUSE"},   {0x01021997, "9P"},
+                  {0xc36400, "Ceph"}, {0x0bd00bd0, "Lustre"}, {0x5346414f, "AFS"}};
+    char folder[4096];
+    struct statfs volume;
+    find_folder(path, folder, sizeof folder);
+    if (statfs(folder, &volume) != 0)
+        return false;
+    for (size_t i = 0; i < sizeof shared / sizeof *shared; i++) {
+        /* some kernels extend the sign of 32 bits */
+        if (((unsigned long)volume.f_type & 0xffffffff) != shared[i].type)
+            continue;
+        snprintf(remark, size,
+                 "lies on %s, which other machines may write to: the file's lock alone keeps a "
+                 "second daemon out: mount it with locks that all machines see (NFS: version 4, "
+                 "without nolock and local_lock)",
+                 shared[i].name);
+        return true;
+    }
+    return false;
+}
+
+enum percuss_status database_room_check(const char *path, struct fault *fault)
+{
     char folder[4096];
     struct statvfs volume;
-    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash + 1 - path) : 1,
-             slash ? path : ".");
+    find_folder(path, folder, sizeof folder);
     if (statvfs(folder, &volume) != 0 || volume.f_blocks == 0)
         return PERCUSS_OK;
     unsigned long long left = (unsigned long long)volume.f_bavail * volume.f_frsize / 1024;

@@ -6,6 +6,9 @@
 #ifndef PERCUSS_STORE_DATABASE_CHECK_H
 #define PERCUSS_STORE_DATABASE_CHECK_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/fault.h"
 
 /* OK: the file is ours, of version 1 to `version`, writable and in no process's use; or it is
@@ -16,6 +19,10 @@ enum percuss_status database_check(const char *path, int version, struct fault *
  * then written back. PERCUSS_BUSY: "there is no room: ... KiB are free in FOLDER, and 2048 are
  * needed". A volume without such figures counts as having room. */
 enum percuss_status database_room_check(const char *path, struct fault *fault);
+
+/* Whether the file lies on a file system that other machines may write to, so that nothing but its
+ * locks keeps another daemon out. True: `remark` says "lies on NFS: ...". */
+bool database_remark_volume(const char *path, char *remark, size_t size);
 
 /* Whether a missing file or folder of that path can be made; BAD_REQUEST names the command that
  * makes the folder above it. */

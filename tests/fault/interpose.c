@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 #include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
@@ -265,6 +266,16 @@ static time_t clock_offset(void)
     if (clock_text)
         memcpy(text, clock_text, CLOCK_SIZE);
     return (time_t)strtol(text, NULL, 10);
+}
+
+/* The kind of the watched file system, as a network's would be. */
+int statfs(const char *path, struct statfs *about)
+{
+    const char *type = getenv("PERCUSS_FAULT_FILESYSTEM");
+    int result = REAL(statfs)(path, about);
+    if (result == 0 && type && concerns(path))
+        about->f_type = (__typeof__(about->f_type))strtoul(type, NULL, 0);
+    return result;
 }
 
 int clock_gettime(clockid_t clock, struct timespec *now)

@@ -63,4 +63,24 @@ others=
 start_daemon
 [ "$(impacts)" = 4 ] || fail "$(cat "$out")"
 expect 0 strike 5
+[ ! -e "$store-shm" ] || fail "it needs memory that processes share, which no network's file system has"
 stop_daemon
+
+if ! is_sanitized thread; then # which bears nothing in front of it
+    say "on a network's file system: a warning at the start and before it, of what the second daemon is kept out by"
+    interpose=$(preload "$build/tests/libinterpose.so")
+    for kind in 0x6969:NFS 0xff534d42:CIFS 0x65735546:FUSE; do
+        expect 0 env LD_PRELOAD="$interpose" PERCUSS_FAULT_PATH="$work/" PERCUSS_FAULT_FILESYSTEM="${kind%:*}" \
+            "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" --check-config
+        says "warning: store: $store: lies on ${kind#*:}, which other machines may write to"
+    done
+    expect 0 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" --check-config
+    grep -q 'lies on' "$err" && fail "a local disk is taken for a network's"
+    printf '#!/bin/sh\nexec env LD_PRELOAD=%s PERCUSS_FAULT_PATH=%s PERCUSS_FAULT_FILESYSTEM=0x6969 %s "$@"\n' \
+        "$interpose" "$work/" "$bin/percussd" >"$work/on-nfs"
+    chmod +x "$work/on-nfs"
+    PERCUSSD=$work/on-nfs
+    start_daemon
+    logged "warning store: $store: lies on NFS" || fail "the log does not say so"
+    stop_daemon
+fi
