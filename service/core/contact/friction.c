@@ -309,7 +309,7 @@ static inline double over_ratio(const double over[3], double x, double y, const 
 /* A walk of the cells: the way of kappa times the displacement over mu, and sums, all along the
  * axis and across it; the loss over mu^2. */
 struct walk {
-    double moved[2];
+    double moved[2], turn; /* the angle that it turns by, rad */
     double force[2], lost;
     double stuck, turning[2]; /* stiffnesses of cells that stick, and of forces that turn */
 };
@@ -378,33 +378,45 @@ EACH_CELL void across_kappa(const double ratio[3], const double at[2], double sh
 }
 
 /* The direction of the force at the end of a slip that has a share > 0 at its beginning; *left
- * becomes the share of the trial force that the limit leaves. A force turns towards the way by
- * tan(angle/2) = exp(-a) of it before, a the elastic force of the way over the limit: to second
- * order in a, and all of it for large ones. */
+ * becomes the share of the trial force that the limit leaves.
+ *
+ * A force turns towards a straight way by tan(angle/2) = exp(-a) of it before, a the elastic force
+ * of the way over the limit: it ends along at + m way, both unit, with m = [(1 + c) q + (1 - c)
+ * q/(1 + q)]/2, c their cosine, q = exp(a) - 1 to fourth order. On a way that turns by `turn` it
+ * ends further round, by turn ((1 + exp(-a))/2 - (1 - exp(-a))/a): half of it where the force
+ * follows the slip, all but none where it hardly slips (a^2/12 and 1/2 - 1/a at the ends). */
 EACH_CELL void slip_direction(const double ratio[3], const struct slip *slip, double share,
-                              const double elastic[2], double along[2], double *left)
+                              const double elastic[2], double turn, double along[2], double *left)
 {
     double limit = 0.5 * (slip->share + share);
     const double at[2] = {slip->x, slip->y};
     double way[2] = {slip->left * elastic[0], slip->left * elastic[1]};
     across_kappa(ratio, at, slip->share, share - slip->share, way);
-    /* at + way (share + bend)/limit, or at + way share^2/(share - bend)/limit where it turns back,
-     * bend = at.way/(2 limit); times what has no quotient */
-    double bend = 0.5 * (at[0] * way[0] + at[1] * way[1]);
-    double both = slip->share * limit;
-    double keep = bend > 0.0 ? limit * limit : both - bend;
-    double turn = bend > 0.0 ? both + bend : slip->share * slip->share;
-    double x = keep * at[0] + turn * way[0], y = keep * at[1] + turn * way[1];
-    double square = x * x + y * y;
+    double size = sqrt(way[0] * way[0] + way[1] * way[1]);
+    /* a = moved/kept; q times kept^4, the force times kept^8 and what else has no quotient */
+    double kept = limit / (limit + size), moved = 1.0 - kept;
+    double fourth = kept * kept * kept * kept;
+    double q = moved / 4.0 + kept;
+    q = moved / 3.0 * q + kept * kept;
+    q = moved / 2.0 * q + kept * kept * kept;
+    q *= moved;
+    double product = slip->share * size;
+    double cosine = at[0] * way[0] + at[1] * way[1]; /* times the product */
+    double keep = (fourth + q) * fourth * size * size;
+    double follow = q * (fourth * product + 0.5 * q * (product + cosine));
+    double x = keep * at[0] + follow * way[0], y = keep * at[1] + follow * way[1];
+    double by = 0.5 * slip->left * turn * moved * moved /
+                (moved * moved + 2.0 * moved * kept + 6.0 * kept * kept);
+    double round_x = x - by * y, round_y = y + by * x;
+    double square = round_x * round_x + round_y * round_y;
     /* as if it had not turned yet: shares may fall faster than forces */
-    x = square > 0.0 ? x : at[0];
-    y = square > 0.0 ? y : at[1];
+    x = square > 0.0 ? round_x : at[0];
+    y = square > 0.0 ? round_y : at[1];
     square = square > 0.0 ? square : slip->share * slip->share;
-    double size = 1.0 / sqrt(square);
-    along[0] = x * size;
-    along[1] = y * size;
-    double trial = slip->share + fabs(way[0] * along[0] + way[1] * along[1]);
-    *left = limit / (trial > limit ? trial : limit);
+    double shorter = 1.0 / sqrt(square);
+    along[0] = x * shorter;
+    along[1] = y * shorter;
+    *left = kept;
 }
 
 /* What the slip of a cell lost: what its elastic displacement lacks of the way times the mean of
@@ -421,14 +433,15 @@ EACH_CELL double slip_lost(const double over[3], const double moved[2], const st
 
 /* One cell that had a share > 0: sticks, or slips at its limit. */
 EACH_CELL struct cell_end cell_follow(const double ratio[3], const double over[3],
-                                      const double moved[2], const struct cell_way *cell)
+                                      const struct walk *walk, const struct cell_way *cell)
 {
+    const double moved[2] = {walk->moved[0], walk->moved[1]};
     double way[2] = {cell->stiffness * moved[0], cell->stiffness * moved[1]};
     double trial[2] = {cell->x + way[0], cell->y + way[1]};
     double excess = trial[0] * trial[0] + trial[1] * trial[1] - cell->share * cell->share;
     const struct slip slip = slip_begin(cell, way);
     double along[2], left;
-    slip_direction(ratio, &slip, cell->share, way, along, &left);
+    slip_direction(ratio, &slip, cell->share, way, walk->turn, along, &left);
     double next[2] = {cell->share * along[0], cell->share * along[1]};
     double lost = slip_lost(over, moved, cell, &slip, next);
     double turning = cell->stiffness * left;
@@ -494,7 +507,7 @@ static void cell_walk(struct friction *friction, size_t i, const struct cell_way
     if (friction->line)
         end = cell_on_line(over, moved[0], cell);
     else if (cell->share > 0.0)
-        end = cell->from > 0.0 ? cell_follow(ratio, over, moved, cell)
+        end = cell->from > 0.0 ? cell_follow(ratio, over, walk, cell)
                                : cell_from_rest(ratio, over, moved, cell);
     friction->share[i] = cell->share;
     friction->traction[0][i] = end.x;
@@ -580,7 +593,7 @@ VECTOR_CLONES static void walk_plane(struct friction *friction, size_t count, do
     const double ratio[3] = {friction->ratio[0], friction->ratio[1], friction->ratio[2]};
     const double over[3] = {friction->over_ratio[0], friction->over_ratio[1],
                             friction->over_ratio[2]};
-    const double moved[2] = {walk->moved[0], walk->moved[1]};
+    const struct walk way = {.moved = {walk->moved[0], walk->moved[1]}, .turn = walk->turn};
     for (size_t first = 0; first < count; first += STRIP) {
         double stuck[STRIP], lost[STRIP], turning[2][STRIP];
         size_t n = count - first < STRIP ? count - first : STRIP;
@@ -595,7 +608,7 @@ VECTOR_CLONES static void walk_plane(struct friction *friction, size_t count, do
             const struct cell_way cell = {
                 x[i],         y[i],          share[i],     base[i] + stiffness[i] * indentation,
                 stiffness[i], compliance[i], compliance[i]};
-            const struct cell_end end = cell_follow(ratio, over, moved, &cell);
+            const struct cell_end end = cell_follow(ratio, over, &way, &cell);
             share[i] = cell.share;
             x[i] = end.x;
             y[i] = end.y;
@@ -693,8 +706,28 @@ static void find_slopes(struct friction *friction, const struct walk *walk)
         kappa[2] * (walk->stuck + second * walk->turning[0] + first * walk->turning[1]);
 }
 
+/* The angle by which a way turns between its ends, of which the chord has the direction of its
+ * middle: twice that to the rate at its end, in the plane where kappa is in both. A way that turns
+ * back, or by more than a right angle, is its chord. */
+static void set_turn(struct walk *walk, const double rate[2])
+{
+    const double *moved = walk->moved;
+    double sizes =
+        sqrt((moved[0] * moved[0] + moved[1] * moved[1]) * (rate[0] * rate[0] + rate[1] * rate[1]));
+    double with = moved[0] * rate[0] + moved[1] * rate[1];
+    double across = moved[0] * rate[1] - moved[1] * rate[0];
+    if (with > M_SQRT1_2 * sizes)
+        walk->turn = 2.0 * across / sizes;
+}
+
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
                    double force[2])
+{
+    friction_walk_curved(friction, indentation, displacement, NULL, force);
+}
+
+void friction_walk_curved(struct friction *friction, double indentation,
+                          const double displacement[2], const double *rate, double force[2])
 {
     double before = friction->indentation;
     /* the part of the way with a contact */
@@ -712,6 +745,13 @@ void friction_walk(struct friction *friction, double indentation, const double d
     if (friction->reached == 0)
         set_axis(friction, moved);
     to_axis(friction, moved, walk.moved);
+    if (rate) {
+        const double with[2] = {kappa[0] * rate[0] + kappa[1] * rate[1],
+                                kappa[1] * rate[0] + kappa[2] * rate[1]};
+        double heading[2];
+        to_axis(friction, with, heading);
+        set_turn(&walk, heading);
+    }
     if (before > 0.0 || indentation > 0.0) {
         const struct normal from = normal_at(friction, before);
         bool yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);

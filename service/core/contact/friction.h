@@ -96,6 +96,11 @@ void friction_deepen(struct friction *friction, double deeper);
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
                    double force[2]);
 
+/* The same by a way that curves evenly and ends with this rate of the displacement, [2], in any
+ * unit; NULL: straight. */
+void friction_walk_curved(struct friction *friction, double indentation,
+                          const double displacement[2], const double *rate, double force[2]);
+
 /* The present tangential force, N. */
 void friction_force(const struct friction *friction, double force[2]);
 

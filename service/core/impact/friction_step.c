@@ -11,6 +11,12 @@
 /* The start, the nodes and the end. */
 static const size_t INNER = NODES + 1, ALL = NODES + 2;
 
+static void set_point(struct friction_point *point, const double *place, size_t count, double s)
+{
+    lagrange_values(place, count, s, point->value);
+    lagrange_slopes(place, count, s, point->slope);
+}
+
 static void set_polynomials(struct friction_points *points)
 {
     double place[NODES + 2] = {0.0};
@@ -20,9 +26,9 @@ static void set_polynomials(struct friction_points *points)
     for (int p = 0; p < FRICTION_PARTS; p++) {
         double share = (p + 1.0) / FRICTION_PARTS;
         for (int i = 0; i < NODES; i++)
-            lagrange_values(place, INNER, place[i] + share * (place[i + 1] - place[i]),
-                            points->to_node[i][p]);
-        lagrange_values(place, ALL, place[NODES] + share * (1.0 - place[NODES]), points->to_end[p]);
+            set_point(&points->to_node[i][p], place, INNER,
+                      place[i] + share * (place[i + 1] - place[i]));
+        set_point(&points->to_end[p], place, ALL, place[NODES] + share * (1.0 - place[NODES]));
     }
 }
 
@@ -84,18 +90,25 @@ void friction_step_begin(struct friction_step *step, const struct scene *scene, 
     }
 }
 
-/* The way's values at a point by its polynomials. */
-static void at_point(const struct friction_way *way, const double *polynomial, bool with_end,
-                     double value[3])
+/* Goes on along the way to a point, by its polynomials. */
+static void walk_to(struct friction *friction, const struct friction_way *way,
+                    const struct friction_point *point, bool with_end, double force[2])
 {
+    double value[3], rate[3];
     for (int r = 0; r < 3; r++) {
         const double *nodes = way->nodes[r];
-        value[r] = polynomial[0] * way->start[r];
-        for (int j = 0; j < NODES; j++)
-            value[r] += polynomial[j + 1] * nodes[j];
-        if (with_end)
-            value[r] += polynomial[NODES + 1] * way->end[r];
+        value[r] = point->value[0] * way->start[r];
+        rate[r] = point->slope[0] * way->start[r];
+        for (int j = 0; j < NODES; j++) {
+            value[r] += point->value[j + 1] * nodes[j];
+            rate[r] += point->slope[j + 1] * nodes[j];
+        }
+        if (with_end) {
+            value[r] += point->value[NODES + 1] * way->end[r];
+            rate[r] += point->slope[NODES + 1] * way->end[r];
+        }
     }
+    friction_walk_curved(friction, value[0], value + 1, rate + 1, force);
 }
 
 /* The solved normal force over that of the law at the solved indentation, which differ by what the
@@ -110,14 +123,11 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
                          double (*stiffness)[NODES])
 {
     struct friction *along = &step->along[i];
-    double value[3];
     double sum[2];
     friction_copy(along, &step->now[i]);
     for (int node = 0; node < NODES; node++) {
-        for (int p = FRICTION_PARTS - parts; p < FRICTION_PARTS; p++) {
-            at_point(way, step->points->to_node[node][p], false, value);
-            friction_walk(along, value[0], value + 1, sum);
-        }
+        for (int p = FRICTION_PARTS - parts; p < FRICTION_PARTS; p++)
+            walk_to(along, way, &step->points->to_node[node][p], false, sum);
         double share = solved_share(along, normal[node]);
         for (int j = 0; j < 2; j++) {
             force[j][node] = share * sum[j];
@@ -131,12 +141,9 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
                        double normal, double force[2], double stiffness[2])
 {
     struct friction *after = &step->after[i];
-    double value[3];
     friction_copy(after, &step->along[i]);
-    for (int p = 0; p < FRICTION_PARTS; p++) {
-        at_point(way, step->points->to_end[p], true, value);
-        friction_walk(after, value[0], value + 1, force);
-    }
+    for (int p = 0; p < FRICTION_PARTS; p++)
+        walk_to(after, way, &step->points->to_end[p], true, force);
     double share = solved_share(after, normal);
     for (int j = 0; j < 2; j++) {
         force[j] *= share;

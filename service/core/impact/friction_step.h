@@ -28,11 +28,14 @@ struct friction_step {
     struct coulomb coulomb; /* plain friction: instead of all but `count` and `stuck` */
 };
 
-/* Lagrange's polynomials at the points of the ways to the nodes, through the start and the nodes;
- * on the way from the last node to the end through the end as well. */
+/* Lagrange's polynomials and their slopes at the points of the ways to the nodes, through the start
+ * and the nodes; on the way from the last node to the end through the end as well. */
+struct friction_point {
+    double value[NODES + 2], slope[NODES + 2];
+};
+
 struct friction_points {
-    double to_node[NODES][FRICTION_PARTS][NODES + 1];
-    double to_end[FRICTION_PARTS][NODES + 2];
+    struct friction_point to_node[NODES][FRICTION_PARTS], to_end[FRICTION_PARTS];
 };
 
 /* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out
