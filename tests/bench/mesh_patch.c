@@ -37,7 +37,7 @@ struct patched {
 static enum percuss_status make(char **arguments, struct patched *all, struct fault *fault)
 {
     /* the mesh, of one material */
-    struct mesh_options how = {mesh_read_unit(arguments[1]), 0.0};
+    struct mesh_options how = {.unit = mesh_read_unit(arguments[1])};
     enum percuss_status status = mesh_read(arguments[0], &how, &all->mesh, fault);
     if (status)
         return status;

@@ -4,6 +4,7 @@
 #include "mesh/builder.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,6 +92,17 @@ size_t builder_set(struct builder *builder, const char *name)
     return builder->set_count++;
 }
 
+bool builder_note(struct builder *builder, const char *format, ...)
+{
+    if (!GROW(builder->notes, builder->note_count, builder->note_room))
+        return false;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(builder->notes[builder->note_count++], MESH_NOTE_SIZE, format, args);
+    va_end(args);
+    return true;
+}
+
 static int compare_labels(const void *left, const void *right)
 {
     const struct label *a = left, *b = right;
@@ -169,6 +181,162 @@ static enum percuss_status check_elements(const struct builder *builder, const c
     return status;
 }
 
+/* ---- mid nodes that a file of linear elements lacks ---- */
+
+/* An edge of an element by the labels of its ends; edges of neighbours are equal. */
+struct edge {
+    size_t low, high;
+    size_t middle; /* its mid node, BUILDER_MIDDLE: to be made */
+    size_t at;     /* where the mid node stands in the connectivity */
+};
+
+struct edges {
+    size_t count, room;
+    struct edge *list;
+};
+
+/* by ends; a mid node that the file has comes before those to be made */
+static int compare_edges(const void *left, const void *right)
+{
+    const struct edge *a = left, *b = right;
+    if (a->low != b->low)
+        return a->low < b->low ? -1 : 1;
+    if (a->high != b->high)
+        return a->high < b->high ? -1 : 1;
+    if (a->middle != b->middle)
+        return a->middle < b->middle ? -1 : 1;
+    return a->at < b->at ? -1 : a->at > b->at;
+}
+
+/* The corners whose middle a node is, by their natural coordinates; false: it is that of a face or
+ * of the element. */
+static bool find_ends(enum element_type type, size_t node, size_t ends[2])
+{
+    double middle[3], corners[8][3];
+    size_t count = type == ELEMENT_TET10 ? 4 : 8, zeros = 0;
+    element_node(type, node, middle);
+    for (size_t i = 0; i < count; i++)
+        element_node(type, i, corners[i]);
+    for (int k = 0; k < 3; k++)
+        zeros += middle[k] == 0.0;
+    if (type == ELEMENT_HEX27 && zeros > 1)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; j < count; j++) {
+            bool between = true;
+            for (int k = 0; k < 3; k++)
+                between = between && 0.5 * (corners[i][k] + corners[j][k]) == middle[k];
+            if (between) {
+                ends[0] = i;
+                ends[1] = j;
+                return true;
+            }
+        }
+    return false;
+}
+
+/* all edges, sorted */
+static bool collect_edges(const struct builder *builder, struct edges *edges)
+{
+    for (size_t e = 0; e < builder->element_count; e++) {
+        const struct builder_element *element = &builder->elements[e];
+        const size_t *nodes = builder->connectivity.values + element->first;
+        size_t corners = element->type == ELEMENT_TET10 ? 4 : 8, ends[2];
+        for (size_t i = corners; i < element_node_count(element->type); i++) {
+            if (!find_ends(element->type, i, ends))
+                continue;
+            if (!GROW(edges->list, edges->count, edges->room))
+                return false;
+            size_t a = nodes[ends[0]], b = nodes[ends[1]];
+            edges->list[edges->count++] =
+                (struct edge){a < b ? a : b, a < b ? b : a, nodes[i], element->first + i};
+        }
+    }
+    qsort(edges->list, edges->count, sizeof *edges->list, compare_edges);
+    return true;
+}
+
+/* whether sorted labels have one */
+static bool has_label(const size_t *labels, size_t count, size_t label)
+{
+    return bsearch(&label, labels, count, sizeof *labels, compare_sizes) != NULL;
+}
+
+/* a set of both ends of an edge has the middle that was made of it */
+static bool add_middles_to_sets(struct builder *builder, const struct edges *edges)
+{
+    for (size_t s = 0; s < builder->set_count; s++) {
+        struct builder_list *labels = &builder->sets[s].labels;
+        size_t count = labels->count;
+        qsort(labels->values, count, sizeof *labels->values, compare_sizes);
+        for (size_t i = 0; i < edges->count; i++) {
+            const struct edge *edge = &edges->list[i];
+            if (edge->middle == BUILDER_MIDDLE && has_label(labels->values, count, edge->low) &&
+                has_label(labels->values, count, edge->high) &&
+                !builder_append(labels, builder->connectivity.values[edge->at]))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* gives each edge without a mid node one, with labels behind those of the file */
+static enum percuss_status place_middles(struct builder *builder, const struct edges *edges,
+                                         const char *file, const struct index *index,
+                                         struct fault *fault)
+{
+    size_t label = index->count ? index->labels[index->count - 1].label : 0;
+    for (size_t i = 0; i < edges->count; i++) {
+        const struct edge *edge = &edges->list[i], *before = i ? &edges->list[i - 1] : NULL;
+        size_t *middle = &builder->connectivity.values[edge->at];
+        if (edge->middle != BUILDER_MIDDLE)
+            continue;
+        /* the neighbours' */
+        if (before && before->low == edge->low && before->high == edge->high) {
+            *middle = builder->connectivity.values[before->at];
+            continue;
+        }
+        size_t low = builder_find(index, edge->low), high = builder_find(index, edge->high);
+        double point[3] = {0.0, 0.0, 0.0};
+        for (int k = 0; k < 3 && low != SIZE_MAX && high != SIZE_MAX; k++)
+            point[k] = 0.5 * (builder->nodes[low].point[k] + builder->nodes[high].point[k]);
+        if (label >= BUILDER_MIDDLE - 1 || !builder_add_node(builder, ++label, point))
+            return builder_out_of_memory(file, fault);
+        *middle = label;
+    }
+    return PERCUSS_OK;
+}
+
+/* replaces every BUILDER_MIDDLE */
+static enum percuss_status make_middles(struct builder *builder, const char *file,
+                                        struct fault *fault)
+{
+    struct edges edges = {0};
+    struct index index = {0};
+    size_t lacking = 0;
+    for (size_t i = 0; i < builder->connectivity.count; i++)
+        lacking += builder->connectivity.values[i] == BUILDER_MIDDLE;
+    if (lacking == 0)
+        return PERCUSS_OK;
+    enum percuss_status status = make_index(builder, file, &index, fault);
+    if (status == PERCUSS_OK && !collect_edges(builder, &edges))
+        status = builder_out_of_memory(file, fault);
+    if (status == PERCUSS_OK)
+        status = place_middles(builder, &edges, file, &index, fault);
+    if (status == PERCUSS_OK &&
+        !(add_middles_to_sets(builder, &edges) &&
+          builder_note(builder, "linear elements were raised to second order with straight edges: "
+                                "round surfaces are as flat between corners as in the file, their "
+                                "volume and curvature are those of the facets")))
+        status = builder_out_of_memory(file, fault);
+    free(edges.list);
+    free(index.labels);
+    free(index.numbers);
+    return status;
+}
+
+/* ---- the mesh ---- */
+
 static enum percuss_status builder_allocate_mesh(const struct builder *builder, const char *file,
                                                  struct solid_mesh *mesh, struct fault *fault)
 {
@@ -182,8 +350,9 @@ static enum percuss_status builder_allocate_mesh(const struct builder *builder, 
     mesh->element_labels = malloc((elements + 1) * sizeof *mesh->element_labels);
     mesh->part = calloc(builder->part_count + 1, sizeof *mesh->part);
     mesh->set = calloc(builder->set_count + 1, sizeof *mesh->set);
+    mesh->notes = malloc((builder->note_count + 1) * sizeof *mesh->notes);
     return mesh->points && mesh->labels && mesh->types && mesh->first && mesh->nodes &&
-                   mesh->parts && mesh->element_labels && mesh->part && mesh->set
+                   mesh->parts && mesh->element_labels && mesh->part && mesh->set && mesh->notes
                ? PERCUSS_OK
                : builder_out_of_memory(file, fault);
 }
@@ -292,7 +461,14 @@ static bool place_sets(const struct builder *builder, const struct index *index,
     return true;
 }
 
-enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
+static void place_notes(const struct builder *builder, struct solid_mesh *mesh)
+{
+    mesh->note_count = builder->note_count;
+    for (size_t i = 0; i < builder->note_count; i++)
+        memcpy(mesh->notes[i], builder->notes[i], sizeof mesh->notes[i]);
+}
+
+enum percuss_status builder_finish(struct builder *builder, const char *file, double unit,
                                    struct solid_mesh *mesh, struct fault *fault)
 {
     /* refuse a mesh without elements */
@@ -307,6 +483,8 @@ enum percuss_status builder_finish(const struct builder *builder, const char *fi
                            file);
     /* each step needs the one before; elements number the nodes that they use */
     if (status == PERCUSS_OK)
+        status = make_middles(builder, file, fault);
+    if (status == PERCUSS_OK)
         status = make_index(builder, file, &index, fault);
     if (status == PERCUSS_OK)
         status = check_elements(builder, file, fault);
@@ -318,6 +496,8 @@ enum percuss_status builder_finish(const struct builder *builder, const char *fi
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
         status = builder_out_of_memory(file, fault);
+    if (status == PERCUSS_OK)
+        place_notes(builder, mesh);
     /* an error frees the unfinished mesh */
     free(index.labels);
     free(index.numbers);
@@ -335,5 +515,6 @@ void builder_free(struct builder *builder)
     for (size_t i = 0; i < builder->set_count; i++)
         free(builder->sets[i].labels.values);
     free(builder->sets);
+    free(builder->notes);
     memset(builder, 0, sizeof *builder);
 }

@@ -6,6 +6,8 @@
 #ifndef PERCUSS_MESH_BUILDER_H
 #define PERCUSS_MESH_BUILDER_H
 
+#include <stdint.h>
+
 #include "mesh/solid_mesh.h"
 
 /* A list that grows. */
@@ -29,8 +31,12 @@ struct builder_set {
     struct builder_list labels; /* of nodes */
 };
 
+/* In place of the label of a mid node: the middle of its edge. */
+#define BUILDER_MIDDLE SIZE_MAX
+
 /* Zero it before use. Functions that add return false when out of memory. */
 struct builder {
+    bool raise; /* elements may have BUILDER_MIDDLE: the caller wants linear ones raised */
     size_t node_count, node_room;
     struct builder_node *nodes;
     size_t element_count, element_room;
@@ -40,13 +46,17 @@ struct builder {
     struct mesh_part *parts;
     size_t set_count, set_room;
     struct builder_set *sets;
+    size_t note_count, note_room;
+    char (*notes)[MESH_NOTE_SIZE];
 };
 
 bool builder_append(struct builder_list *list, size_t value);
 
 bool builder_add_node(struct builder *builder, size_t label, const double point[3]);
 
-/* `nodes`: labels, element_node_count(type) of them. */
+/* `nodes`: labels, element_node_count(type) of them. Mid nodes may be BUILDER_MIDDLE, which
+ * builder_finish makes: the elements along an edge share one, that of an element that has its own
+ * goes before, and a set that has both ends has it. */
 bool builder_add_element(struct builder *builder, enum element_type type, size_t label, size_t part,
                          const size_t *nodes);
 
@@ -55,10 +65,14 @@ bool builder_add_element(struct builder *builder, enum element_type type, size_t
 size_t builder_part(struct builder *builder, const char *name);
 size_t builder_set(struct builder *builder, const char *name);
 
+/* Tells the user what the body lacks or has besides; cut to fit. */
+bool builder_note(struct builder *builder, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Makes the mesh, lengths times `unit`; drops parts, sets and nodes that no element uses. `file`
  * begins messages. PERCUSS_BAD_REQUEST: no elements, duplicate or missing labels, coordinates that
  * are not finite. */
-enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
+enum percuss_status builder_finish(struct builder *builder, const char *file, double unit,
                                    struct solid_mesh *mesh, struct fault *fault);
 
 void builder_free(struct builder *builder);

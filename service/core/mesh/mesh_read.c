@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "mesh/bdf.h"
 #include "mesh/card.h"
 #include "mesh/inp.h"
 #include "mesh/msh.h"
@@ -251,16 +252,40 @@ static void gmsh_forget(const struct gmsh_file *file)
     rmdir(file->folder);
 }
 
-/* ---- reading ---- */
+/* ---- which format a file has ---- */
 
-/* formats for Gmsh, each with its task */
+enum format {
+    FORMAT_NONE,
+    FORMAT_MSH,
+    FORMAT_INP,
+    FORMAT_BDF,
+    FORMAT_MESHED, /* Gmsh converts it */
+    FORMAT_SHAPE,  /* Gmsh meshes it */
+    FORMAT_SURFACE /* Gmsh fills it */
+};
+
+/* by the end of its name */
 static const struct {
     const char *suffix;
-    enum gmsh_task task;
-} FORMATS[] = {{".step", GMSH_MESH},   {".stp", GMSH_MESH},    {".iges", GMSH_MESH},
-               {".igs", GMSH_MESH},    {".brep", GMSH_MESH},   {".geo", GMSH_MESH},
-               {".stl", GMSH_FILL},    {".bdf", GMSH_CONVERT}, {".nas", GMSH_CONVERT},
-               {".unv", GMSH_CONVERT}, {".vtk", GMSH_CONVERT}, {".mesh", GMSH_CONVERT}};
+    enum format format;
+} NAMES[] = {{".msh", FORMAT_MSH},    {".inp", FORMAT_INP},     {".bdf", FORMAT_BDF},
+             {".nas", FORMAT_BDF},    {".step", FORMAT_SHAPE},  {".stp", FORMAT_SHAPE},
+             {".iges", FORMAT_SHAPE}, {".igs", FORMAT_SHAPE},   {".brep", FORMAT_SHAPE},
+             {".geo", FORMAT_SHAPE},  {".stl", FORMAT_SURFACE}, {".unv", FORMAT_MESHED},
+             {".vtk", FORMAT_MESHED}, {".mesh", FORMAT_MESHED}};
+
+/* by the first line that is neither empty nor a comment */
+static const struct {
+    const char *begin;
+    enum format format;
+} BEGINNINGS[] = {
+    {"$MeshFormat", FORMAT_MSH}, {"*NODE", FORMAT_INP},         {"*HEADING", FORMAT_INP},
+    {"*PART", FORMAT_INP},       {"*INCLUDE", FORMAT_INP},      {"*PREPRINT", FORMAT_INP},
+    {"BEGIN BULK", FORMAT_BDF},  {"GRID ", FORMAT_BDF},         {"GRID*", FORMAT_BDF},
+    {"GRID,", FORMAT_BDF},       {"SOL ", FORMAT_BDF},          {"CEND", FORMAT_BDF},
+    {"# vtk", FORMAT_MESHED},    {"ISO-10303-21", FORMAT_SHAPE}};
+
+enum { BEGINNING_SIZE = 256, MOST_COMMENTS = 1000 };
 
 double mesh_read_unit(const char *name)
 {
@@ -276,6 +301,40 @@ static const char *suffix_of(const char *path)
     return dot && (!slash || dot > slash) ? dot : "";
 }
 
+/* The first line that says something: not empty, no comment of a deck ("**") or of bulk data ("$ ",
+ * "$*", "$$"). */
+static void first_line(const char *path, char line[BEGINNING_SIZE])
+{
+    FILE *stream = fopen(path, "rb");
+    line[0] = '\0';
+    for (int i = 0; stream && i < MOST_COMMENTS && fgets(line, BEGINNING_SIZE, stream); i++) {
+        size_t blank = strspn(line, " \t\r\n\xEF\xBB\xBF");
+        memmove(line, line + blank, strlen(line + blank) + 1);
+        bool comment = strncmp(line, "**", 2) == 0 ||
+                       (line[0] == '$' && strncmp(line, "$MeshFormat", 11) != 0);
+        if (line[0] && !comment)
+            break;
+    }
+    if (stream)
+        fclose(stream);
+}
+
+static enum format format_of(const char *path)
+{
+    char line[BEGINNING_SIZE];
+    const char *suffix = suffix_of(path);
+    first_line(path, line);
+    for (size_t i = 0; i < sizeof BEGINNINGS / sizeof *BEGINNINGS; i++)
+        if (strncasecmp(line, BEGINNINGS[i].begin, strlen(BEGINNINGS[i].begin)) == 0)
+            return BEGINNINGS[i].format;
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
+        if (strcasecmp(suffix, NAMES[i].suffix) == 0)
+            return NAMES[i].format;
+    return FORMAT_NONE;
+}
+
+/* ---- reading ---- */
+
 static enum percuss_status read_through_gmsh(const char *path, enum gmsh_task task,
                                              const struct mesh_options *options,
                                              struct solid_mesh *mesh, struct fault *fault)
@@ -289,35 +348,51 @@ static enum percuss_status read_through_gmsh(const char *path, enum gmsh_task ta
     return status;
 }
 
+static enum percuss_status read_format(const char *path, enum format format,
+                                       const struct mesh_options *options, struct solid_mesh *mesh,
+                                       struct fault *fault)
+{
+    switch (format) {
+    case FORMAT_INP:
+        return inp_read(path, options->unit, mesh, fault);
+    case FORMAT_BDF:
+        return bdf_read(path, options->unit, options->raise, mesh, fault);
+    case FORMAT_MSH:
+        if (msh_is_readable(path))
+            return msh_read(path, path, options->unit, mesh, fault);
+        return read_through_gmsh(path, GMSH_CONVERT, options, mesh, fault);
+    case FORMAT_MESHED:
+        return read_through_gmsh(path, GMSH_CONVERT, options, mesh, fault);
+    case FORMAT_SHAPE:
+        return read_through_gmsh(path, GMSH_MESH, options, mesh, fault);
+    case FORMAT_SURFACE:
+        return read_through_gmsh(path, GMSH_FILL, options, mesh, fault);
+    case FORMAT_NONE:
+        break;
+    }
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "%s: its name must end with .msh, .inp, .bdf, .nas, .step, .stp, .iges, .igs, .brep, .geo, "
+        ".stl, .unv, .vtk or .mesh",
+        path);
+}
+
 enum percuss_status mesh_read(const char *path, const struct mesh_options *options,
                               struct solid_mesh *mesh, struct fault *fault)
 {
-    const char *suffix = suffix_of(path);
     memset(mesh, 0, sizeof *mesh);
     if (!(options->unit > 0.0 && isfinite(options->unit)))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "unit: %g: must be > 0 m", options->unit);
     if (!(options->size >= 0.0 && isfinite(options->size)))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "size: %g: must be >= 0 m", options->size);
-    if (strcasecmp(suffix, ".inp") == 0)
-        return inp_read(path, options->unit, mesh, fault);
-    if (strcasecmp(suffix, ".msh") == 0)
-        return msh_is_readable(path) ? msh_read(path, path, options->unit, mesh, fault)
-                                     : read_through_gmsh(path, GMSH_CONVERT, options, mesh, fault);
-    for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
-        if (strcasecmp(suffix, FORMATS[i].suffix) == 0)
-            return read_through_gmsh(path, FORMATS[i].task, options, mesh, fault);
-    return fault_set(
-        fault, PERCUSS_BAD_REQUEST,
-        "%s: its name must end with .msh, .inp, .step, .stp, .iges, .igs, .brep, .geo, "
-        ".stl, .bdf, .nas, .unv, .vtk or .mesh",
-        path);
+    return read_format(path, format_of(path), options, mesh, fault);
 }
 
 /* ---- digest of a mesh's files ---- */
 
 struct digest_walk {
     struct sha256 *hash;
-    bool deck; /* follow its *INCLUDE lines */
+    enum format format; /* follow the files that its decks include */
     int depth;
     bool done; /* after *STEP: the reader stops there */
 };
@@ -349,6 +424,31 @@ static enum percuss_status digest_follow(struct digest_walk *digest, struct scan
     return status;
 }
 
+/* follows INCLUDE of bulk data */
+static enum percuss_status digest_follow_bdf(struct digest_walk *digest, const char *path,
+                                             struct fault *fault)
+{
+    struct bdf_lines lines;
+    struct bdf_card card = {0};
+    char included[BDF_PATH_SIZE];
+    enum percuss_status status = bdf_open(&lines, path, digest->depth > 0, fault), refused;
+    if (status)
+        return status;
+    while (!status && bdf_next(&lines, &card, &refused)) {
+        /* the reader refuses deeper files, and what cannot be understood */
+        if (strcmp(card.name, "INCLUDE") != 0 || digest->depth == BDF_MOST_DEPTH)
+            continue;
+        if (bdf_include(&lines, included))
+            break;
+        digest->depth++;
+        status = digest_add_file(digest, included, fault);
+        digest->depth--;
+    }
+    bdf_card_free(&card);
+    scan_close(&lines.scan);
+    return status;
+}
+
 static enum percuss_status digest_add_file(struct digest_walk *digest, const char *path,
                                            struct fault *fault)
 {
@@ -362,16 +462,16 @@ static enum percuss_status digest_add_file(struct digest_walk *digest, const cha
     if (digest->depth > 0)
         sha256_add(digest->hash, &size, sizeof size);
     sha256_add(digest->hash, scan.text, scan.size);
-    while (!status && digest->deck && !digest->done && card_line(&scan, line, &refused))
+    while (!status && digest->format == FORMAT_INP && !digest->done &&
+           card_line(&scan, line, &refused))
         if (line[0] == '*')
             status = digest_follow(digest, &scan, line);
     scan_close(&scan);
-    return status;
+    return digest->format == FORMAT_BDF ? digest_follow_bdf(digest, path, fault) : status;
 }
 
 enum percuss_status mesh_digest(const char *path, struct sha256 *hash, struct fault *fault)
 {
-    const char *kind = strrchr(path, '.');
-    struct digest_walk digest = {.hash = hash, .deck = kind && strcasecmp(kind, ".inp") == 0};
+    struct digest_walk digest = {.hash = hash, .format = format_of(path)};
     return digest_add_file(&digest, path, fault);
 }

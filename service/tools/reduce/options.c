@@ -20,6 +20,7 @@ enum {
     POISSON,
     DENSITY,
     SIZE,
+    RAISE,
     SITE,
     STIFFNESS,
     MASS,
@@ -54,6 +55,8 @@ static const struct argp_option list[] = {
     {"unit", 'u', "UNIT", 0, "Of lengths in FILE: m (default), cm, mm, um, in, ft", 2},
     {"size", SIZE, "H", 0, "Of the elements that Gmsh makes of a shape, in the unit or such as 4mm",
      2},
+    {"raise", RAISE, NULL, 0,
+     "Take linear elements, too, with mid nodes in the middle of their straight edges", 2},
     {"max-frequency", 'f', "F", 0,
      "All modes below it, in Hz or such as 20kHz; default: as far as the mesh is good, at most 300 "
      "modes",
@@ -221,6 +224,9 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
     case SIZE:
         options->size_text = text;
         return 0;
+    case RAISE:
+        options->raise = true;
+        return 0;
     /* which modes */
     case 'f':
         options->max_frequency = parse_quantity(state, "max-frequency", text, &limit_frequency);
@@ -304,8 +310,9 @@ struct options options_read(int argc, char **argv)
         .args_doc = "FILE",
         .doc = "Reduces a body that is given as a mesh of second-order elements to its modes of "
                "vibration and what else an impact needs of it, in a file for the catalogue."
-               "\vFILE is Gmsh's .msh or Abaqus' and CalculiX' .inp; .step, .stl, .bdf, .unv, .vtk "
-               "and more where Gmsh is installed. The report goes to standard output, progress to "
+               "\vFILE is Gmsh's .msh, a deck of Abaqus, CalculiX (.inp) or Nastran (.bdf); .step, "
+               ".stl, .unv, .vtk and more where Gmsh is installed. The report goes to standard "
+               "output, progress to "
                "standard error.",
     };
     struct options options = {.young = NAN, .poisson = NAN, .density = NAN, .unit = 1.0};

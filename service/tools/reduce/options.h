@@ -28,7 +28,7 @@ struct options {
     struct part_option parts[OPTIONS_MOST];
     double sites[OPTIONS_MOST][3]; /* in the unit of the mesh */
     double progress;               /* s between its lines; 0: not given */
-    bool json;
+    bool json, raise;
     const char *size_text, *site_texts[OPTIONS_MOST]; /* size and sites as they were given */
 };
 

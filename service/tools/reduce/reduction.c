@@ -223,7 +223,8 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
 {
     /* the mesh, its materials and its surface, each checked by the next step */
     const struct options *options = reduction->options;
-    struct mesh_options how = {options->unit, options->size * options->unit};
+    struct mesh_options how = {
+        .unit = options->unit, .size = options->size * options->unit, .raise = options->raise};
     struct solid_mesh *mesh = &reduction->mesh;
     enum percuss_status status = mesh_read(options->file, &how, mesh, fault);
     if (!status)

@@ -1,0 +1,930 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "mesh/bdf.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/builder.h"
+#include "mesh/element.h"
+#include "mesh/file_material.h"
+#include "mesh/grow.h"
+#include "model/vector.h"
+
+/* ---- what the cards say, until all are read ---- */
+
+struct bdf_grid {
+    size_t label, frame, line;
+    const char *file;
+    double point[3];          /* in its frame */
+    bool own_frame, own_hold; /* its fields are not blank: GRDSET does not fill them */
+};
+
+/* A coordinate system by three points: origin, one on the z-axis, one in the half-plane of x and z.
+ */
+struct bdf_frame {
+    size_t label, line;
+    const char *file;
+    char kind; /* R, C, S */
+    bool by_grids;
+    size_t in, grids[3]; /* points stand in this frame, or are these GRIDs */
+    double points[3][3];
+    bool known, busy; /* busy: on the way to be known */
+    double origin[3], axes[3][3];
+};
+
+struct bdf_material {
+    size_t label, line;
+    const char *file;
+    bool has_density;
+    double young, poisson, density;
+};
+
+struct bdf_property {
+    size_t label, material;
+};
+
+/* Directions in which an SPC holds a node, a bit each. */
+struct bdf_hold {
+    size_t set, node;
+    unsigned directions;
+};
+
+/* SPCADD: a set has those of another. */
+struct bdf_sum {
+    size_t set, member;
+};
+
+/* Names of cards that are not read, with the line of the first one. */
+struct bdf_other {
+    char name[BDF_FIELD_SIZE];
+    size_t line, count;
+};
+
+struct bdf {
+    struct builder builder;
+    struct fault *fault;
+    const char *file;
+    int depth;
+    size_t grid_count, grid_room, frame_count, frame_room, material_count, material_room;
+    size_t property_count, property_room, hold_count, hold_room, sum_count, sum_room;
+    size_t other_count, other_room, path_count, path_room, shells;
+    struct bdf_grid *grids;
+    struct bdf_frame *frames;
+    struct bdf_material *materials;
+    struct bdf_property *properties;
+    struct bdf_hold *holds;
+    struct bdf_sum *sums;
+    struct bdf_other *others;
+    char **paths;     /* of the files, for messages */
+    const char *path; /* of the one that is read */
+    size_t frame;     /* of GRDSET, with the directions that it holds */
+    unsigned directions;
+    double mass_factor; /* PARAM, WTMASS */
+};
+
+enum { TRANSLATIONS = 7, MOST_CHAIN = 100 };
+
+/* more would be a file of gigabytes */
+static const size_t MOST_THRU = 20000000;
+
+/* G and E/2(1 + NU) may differ by rounded digits of a data sheet */
+static const double OTHER_SHEAR = 0.02;
+
+static const double INCH = 0.0254; /* m */
+
+static enum percuss_status bdf_out_of_memory(const struct bdf *bdf)
+{
+    return fault_set(bdf->fault, PERCUSS_INTERNAL, "%s: out of memory", bdf->file);
+}
+
+/* ---- cards ---- */
+
+typedef enum percuss_status bdf_reader(struct bdf *bdf, const struct bdf_card *card);
+
+/* "123456" as bits; false with a message */
+static bool bdf_directions(const struct bdf_card *card, size_t field, unsigned *directions)
+{
+    const char *text = bdf_field(card, field);
+    *directions = 0;
+    for (const char *c = text; *c; c++) {
+        if (*c < '0' || *c > '6') {
+            bdf_refuse(card, "field %zu: %s: must be directions, 1 to 6", field, text);
+            return false;
+        }
+        if (*c > '0')
+            *directions |= 1u << (*c - '1');
+    }
+    return true;
+}
+
+static bool bdf_hold_node(struct bdf *bdf, size_t set, size_t node, unsigned directions)
+{
+    if (!GROW(bdf->holds, bdf->hold_count, bdf->hold_room))
+        return false;
+    bdf->holds[bdf->hold_count++] = (struct bdf_hold){set, node, directions};
+    return true;
+}
+
+static enum percuss_status read_grid(struct bdf *bdf, const struct bdf_card *card)
+{
+    struct bdf_grid grid = {.line = card->line,
+                            .file = bdf->path,
+                            .own_frame = !bdf_is_blank(card, 3),
+                            .own_hold = !bdf_is_blank(card, 8)};
+    unsigned directions;
+    if (!bdf_label(card, 2, &grid.label) || !bdf_size(card, 3, &grid.frame))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t k = 0; k < 3; k++)
+        if (!bdf_real(card, 4 + k, &grid.point[k]))
+            return PERCUSS_BAD_REQUEST;
+    if (!bdf_directions(card, 8, &directions))
+        return PERCUSS_BAD_REQUEST;
+    if (!GROW(bdf->grids, bdf->grid_count, bdf->grid_room) ||
+        ((directions & TRANSLATIONS) && !bdf_hold_node(bdf, 0, grid.label, directions)))
+        return bdf_out_of_memory(bdf);
+    bdf->grids[bdf->grid_count++] = grid;
+    return PERCUSS_OK;
+}
+
+/* what blank fields of all GRIDs mean */
+static enum percuss_status read_grdset(struct bdf *bdf, const struct bdf_card *card)
+{
+    return bdf_size(card, 3, &bdf->frame) && bdf_directions(card, 8, &bdf->directions)
+               ? PERCUSS_OK
+               : PERCUSS_BAD_REQUEST;
+}
+
+static enum percuss_status add_frame(struct bdf *bdf, const struct bdf_card *card,
+                                     struct bdf_frame *frame)
+{
+    frame->kind = card->name[5];
+    frame->line = card->line;
+    frame->file = bdf->path;
+    if (!GROW(bdf->frames, bdf->frame_count, bdf->frame_room))
+        return bdf_out_of_memory(bdf);
+    bdf->frames[bdf->frame_count++] = *frame;
+    return PERCUSS_OK;
+}
+
+/* CORD1R, C, S: one or two systems by three GRIDs each */
+static enum percuss_status read_frame_of_grids(struct bdf *bdf, const struct bdf_card *card)
+{
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t at = 2; status == PERCUSS_OK && at <= 6; at += 4) {
+        struct bdf_frame frame = {.by_grids = true};
+        if (at > 2 && bdf_is_blank(card, at))
+            break;
+        if (!bdf_label(card, at, &frame.label))
+            return PERCUSS_BAD_REQUEST;
+        for (size_t k = 0; k < 3; k++)
+            if (!bdf_label(card, at + 1 + k, &frame.grids[k]))
+                return PERCUSS_BAD_REQUEST;
+        status = add_frame(bdf, card, &frame);
+    }
+    return status;
+}
+
+/* CORD2R, C, S: one system by three points in another one */
+static enum percuss_status read_frame_of_points(struct bdf *bdf, const struct bdf_card *card)
+{
+    struct bdf_frame frame = {0};
+    if (!bdf_label(card, 2, &frame.label) || !bdf_size(card, 3, &frame.in))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t k = 0; k < 9; k++)
+        if (!bdf_real(card, 4 + k, &frame.points[k / 3][k % 3]))
+            return PERCUSS_BAD_REQUEST;
+    return add_frame(bdf, card, &frame);
+}
+
+/* Solids, with the card's node of each node in Gmsh's order. */
+static const struct bdf_solid {
+    const char *name;
+    enum element_type type;
+    size_t corners, nodes;
+    unsigned char order[20];
+} SOLIDS[] = {{"CTETRA", ELEMENT_TET10, 4, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+              {"CHEXA", ELEMENT_HEX20, 8, 20, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
+                                               12, 9, 13, 10, 14, 15, 16, 19, 17, 18}}};
+
+/* the nodes of the card, the number of mid nodes that it has */
+static bool read_solid_nodes(const struct bdf_card *card, const struct bdf_solid *solid,
+                             size_t *nodes, size_t *middles)
+{
+    *middles = 0;
+    for (size_t i = 0; i < solid->nodes; i++) {
+        nodes[i] = 0;
+        if (!(i < solid->corners ? bdf_label(card, 4 + i, &nodes[i])
+                                 : bdf_size(card, 4 + i, &nodes[i])))
+            return false;
+        *middles += i >= solid->corners && nodes[i] > 0;
+    }
+    for (size_t field = 4 + solid->nodes; field < card->count + 2; field++)
+        if (!bdf_is_blank(card, field)) {
+            bdf_refuse(card, "%s: has more than %zu nodes (%s)", bdf_field(card, 2), solid->nodes,
+                       bdf_field(card, field));
+            return false;
+        }
+    return true;
+}
+
+static enum percuss_status check_middles(const struct bdf *bdf, const struct bdf_card *card,
+                                         const struct bdf_solid *solid, size_t middles)
+{
+    size_t all = solid->nodes - solid->corners;
+    if (middles == all || bdf->builder.raise)
+        return PERCUSS_OK;
+    if (middles > 0)
+        return bdf_refuse(card,
+                          "%s: has %zu of %zu mid nodes: must have all (--raise puts the others in "
+                          "the middle of their edges)",
+                          bdf_field(card, 2), middles, all);
+    return bdf_refuse(card,
+                      "%s: has %zu nodes: must be of second order, %zu nodes, as linear ones are "
+                      "too stiff (first frequency 4 to 15 %% high): mesh with mid-side nodes "
+                      "(%s) and export again, or raise them by --raise",
+                      bdf_field(card, 2), solid->corners, solid->nodes,
+                      solid->corners == 4 ? "Tet10" : "Hex20");
+}
+
+static size_t property_part(struct bdf *bdf, size_t property)
+{
+    char name[MESH_NAME_SIZE];
+    snprintf(name, sizeof name, "PSOLID %zu", property);
+    return builder_part(&bdf->builder, name);
+}
+
+static enum percuss_status read_solid(struct bdf *bdf, const struct bdf_card *card)
+{
+    const struct bdf_solid *solid = &SOLIDS[strcmp(card->name, SOLIDS[0].name) != 0];
+    size_t label, nodes[20], ordered[20], middles;
+    if (!bdf_label(card, 2, &label))
+        return PERCUSS_BAD_REQUEST;
+    size_t property = label;
+    if (!bdf_size(card, 3, &property) || !read_solid_nodes(card, solid, nodes, &middles))
+        return PERCUSS_BAD_REQUEST;
+    enum percuss_status status = check_middles(bdf, card, solid, middles);
+    if (status != PERCUSS_OK)
+        return status;
+    for (size_t i = 0; i < solid->nodes; i++) {
+        size_t node = nodes[solid->order[i]];
+        ordered[i] = node > 0 ? node : BUILDER_MIDDLE;
+    }
+    size_t part = property_part(bdf, property);
+    return part != SIZE_MAX && builder_add_element(&bdf->builder, solid->type, label, part, ordered)
+               ? PERCUSS_OK
+               : bdf_out_of_memory(bdf);
+}
+
+/* the set of a kind and number */
+static size_t numbered_set(struct bdf *bdf, const char *kind, size_t number)
+{
+    char name[MESH_NAME_SIZE];
+    snprintf(name, sizeof name, "%s %zu", kind, number);
+    return builder_set(&bdf->builder, name);
+}
+
+/* CTRIA3, CTRIA6, CQUAD8; CTRIAR and CQUADR have corners only */
+static size_t shell_nodes(const char *name)
+{
+    char last = name[strlen(name) - 1];
+    return last == '6' ? 6 : last == '8' ? 8 : name[1] == 'T' ? 3 : 4;
+}
+
+/* shells name nodes only */
+static enum percuss_status read_shell(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t label;
+    if (!bdf_label(card, 2, &label))
+        return PERCUSS_BAD_REQUEST;
+    size_t property = label;
+    if (!bdf_size(card, 3, &property))
+        return PERCUSS_BAD_REQUEST;
+    size_t set = numbered_set(bdf, "PSHELL", property);
+    if (set == SIZE_MAX)
+        return bdf_out_of_memory(bdf);
+    for (size_t i = 0; i < shell_nodes(card->name); i++) {
+        size_t node = 0;
+        if (!bdf_size(card, 4 + i, &node))
+            return PERCUSS_BAD_REQUEST;
+        if (node > 0 && !builder_append(&bdf->builder.sets[set].labels, node))
+            return bdf_out_of_memory(bdf);
+    }
+    bdf->shells++;
+    return PERCUSS_OK;
+}
+
+/* Calls `add` for each node of a list from `field` on: numbers, A THRU B; ends at a number with a
+ * point. */
+static enum percuss_status
+each_node(struct bdf *bdf, const struct bdf_card *card, size_t field,
+          bool (*add)(struct bdf *bdf, const size_t what[2], size_t node), const size_t what[2])
+{
+    size_t before = 0, node;
+    for (; field < card->count + 2 && !strchr(bdf_field(card, field), '.'); field++) {
+        bool thru = strcmp(bdf_field(card, field), "THRU") == 0 ||
+                    strcmp(bdf_field(card, field), "thru") == 0;
+        if (bdf_is_blank(card, field))
+            continue;
+        if (!bdf_label(card, field + thru, &node))
+            return PERCUSS_BAD_REQUEST;
+        if (thru && (before == 0 || node < before || node - before > MOST_THRU))
+            return bdf_refuse(card, "%zu THRU %zu: must be two numbers, the smaller first", before,
+                              node);
+        for (size_t i = thru ? before + 1 : node; i <= node; i++)
+            if (!add(bdf, what, i))
+                return bdf_out_of_memory(bdf);
+        field += thru;
+        before = node;
+    }
+    return PERCUSS_OK;
+}
+
+static bool add_held(struct bdf *bdf, const size_t what[2], size_t node)
+{
+    return bdf_hold_node(bdf, what[0], node, (unsigned)what[1]);
+}
+
+static bool add_named(struct bdf *bdf, const size_t what[2], size_t node)
+{
+    return builder_append(&bdf->builder.sets[what[0]].labels, node);
+}
+
+static bool add_sum(struct bdf *bdf, const size_t what[2], size_t member)
+{
+    if (!GROW(bdf->sums, bdf->sum_count, bdf->sum_room))
+        return false;
+    bdf->sums[bdf->sum_count++] = (struct bdf_sum){what[0], member};
+    return true;
+}
+
+/* SPC1: set, directions, nodes */
+static enum percuss_status read_spc1(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t what[2];
+    unsigned directions;
+    if (!bdf_label(card, 2, &what[0]) || !bdf_directions(card, 3, &directions))
+        return PERCUSS_BAD_REQUEST;
+    what[1] = directions;
+    return each_node(bdf, card, 4, add_held, what);
+}
+
+/* SPC: set, then twice node, directions, displacement */
+static enum percuss_status read_spc(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t set, node;
+    unsigned directions;
+    if (!bdf_label(card, 2, &set))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t at = 3; at <= 6 && !bdf_is_blank(card, at); at += 3) {
+        if (!bdf_label(card, at, &node) || !bdf_directions(card, at + 1, &directions))
+            return PERCUSS_BAD_REQUEST;
+        if (!bdf_hold_node(bdf, set, node, directions))
+            return bdf_out_of_memory(bdf);
+    }
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_spcadd(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t what[2] = {0};
+    return bdf_label(card, 2, &what[0]) ? each_node(bdf, card, 3, add_sum, what)
+                                        : PERCUSS_BAD_REQUEST;
+}
+
+/* a name of a card that is not read, for the note */
+static enum percuss_status count_other(struct bdf *bdf, const struct bdf_card *card)
+{
+    for (size_t i = 0; i < bdf->other_count; i++)
+        if (strcmp(bdf->others[i].name, card->name) == 0) {
+            bdf->others[i].count++;
+            return PERCUSS_OK;
+        }
+    if (!GROW(bdf->others, bdf->other_count, bdf->other_room))
+        return bdf_out_of_memory(bdf);
+    struct bdf_other *other = &bdf->others[bdf->other_count++];
+    *other = (struct bdf_other){.line = card->line, .count = 1};
+    memcpy(other->name, card->name, sizeof other->name);
+    return PERCUSS_OK;
+}
+
+/* RBE2: its dependent nodes have a name; it is no part of the body */
+static enum percuss_status read_rbe2(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t label, what[2] = {0};
+    if (!bdf_label(card, 2, &label))
+        return PERCUSS_BAD_REQUEST;
+    what[0] = numbered_set(bdf, "RBE2", label);
+    if (what[0] == SIZE_MAX)
+        return bdf_out_of_memory(bdf);
+    enum percuss_status status = each_node(bdf, card, 5, add_named, what);
+    return status == PERCUSS_OK ? count_other(bdf, card) : status;
+}
+
+static enum percuss_status read_property(struct bdf *bdf, const struct bdf_card *card)
+{
+    struct bdf_property property = {0};
+    if (!bdf_label(card, 2, &property.label) || !bdf_label(card, 3, &property.material))
+        return PERCUSS_BAD_REQUEST;
+    if (!bdf_is_blank(card, 8) && strcmp(bdf_field(card, 8), "SMECH") != 0)
+        return bdf_refuse(card, "%zu: FCTN %s: must be a structure's, SMECH", property.label,
+                          bdf_field(card, 8));
+    if (!GROW(bdf->properties, bdf->property_count, bdf->property_room))
+        return bdf_out_of_memory(bdf);
+    bdf->properties[bdf->property_count++] = property;
+    return PERCUSS_OK;
+}
+
+/* two of E, G and NU give the third */
+static enum percuss_status check_elastic(const struct bdf_card *card, struct bdf_material *material)
+{
+    double *young = &material->young, *poisson = &material->poisson, shear = 0.0;
+    bool has_young = !bdf_is_blank(card, 3), has_shear = !bdf_is_blank(card, 4);
+    bool has_poisson = !bdf_is_blank(card, 5);
+    if (!bdf_real(card, 3, young) || !bdf_real(card, 4, &shear) || !bdf_real(card, 5, poisson))
+        return PERCUSS_BAD_REQUEST;
+    if (has_young + has_shear + has_poisson < 2)
+        return bdf_refuse(card, "%zu: two of E, G and NU must be there", material->label);
+    if (!has_young)
+        *young = 2.0 * shear * (1.0 + *poisson);
+    if (!has_poisson)
+        *poisson = 0.5 * *young / shear - 1.0;
+    if (has_young && has_shear && has_poisson &&
+        !(fabs(2.0 * shear * (1.0 + *poisson) - *young) <= OTHER_SHEAR * *young))
+        return bdf_refuse(card, "%zu: E %g, G %g, NU %g: G must be E/2(1 + NU) = %g, or blank",
+                          material->label, *young, shear, *poisson,
+                          0.5 * *young / (1.0 + *poisson));
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_material(struct bdf *bdf, const struct bdf_card *card)
+{
+    struct bdf_material material = {.line = card->line, .file = bdf->path};
+    if (!bdf_label(card, 2, &material.label) || !bdf_real(card, 6, &material.density))
+        return PERCUSS_BAD_REQUEST;
+    enum percuss_status status = check_elastic(card, &material);
+    if (status != PERCUSS_OK)
+        return status;
+    material.has_density = material.density != 0.0;
+    if (!GROW(bdf->materials, bdf->material_count, bdf->material_room))
+        return bdf_out_of_memory(bdf);
+    bdf->materials[bdf->material_count++] = material;
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, bool bulk);
+
+/* masses are RHO times WTMASS; other parameters do not change the body */
+static enum percuss_status read_parameter(struct bdf *bdf, const struct bdf_card *card)
+{
+    if (strcmp(bdf_field(card, 2), "WTMASS") != 0)
+        return PERCUSS_OK;
+    return bdf_real(card, 3, &bdf->mass_factor) ? PERCUSS_OK : PERCUSS_BAD_REQUEST;
+}
+
+/* cards that make a mesh of something else, so that passing them over would change the body */
+static enum percuss_status refuse_card(struct bdf *bdf, const struct bdf_card *card)
+{
+    (void)bdf;
+    return bdf_refuse(card, "is not read: must be GRID, CORD1R to CORD2S, CTETRA of 10 or CHEXA of "
+                            "20 nodes");
+}
+
+static const struct {
+    const char *name;
+    bdf_reader *read;
+} CARDS[] = {{"GRID", read_grid},
+             {"GRDSET", read_grdset},
+             {"CORD1R", read_frame_of_grids},
+             {"CORD1C", read_frame_of_grids},
+             {"CORD1S", read_frame_of_grids},
+             {"CORD2R", read_frame_of_points},
+             {"CORD2C", read_frame_of_points},
+             {"CORD2S", read_frame_of_points},
+             {"CTETRA", read_solid},
+             {"CHEXA", read_solid},
+             {"CTRIA3", read_shell},
+             {"CTRIA6", read_shell},
+             {"CTRIAR", read_shell},
+             {"CQUAD4", read_shell},
+             {"CQUAD8", read_shell},
+             {"CQUADR", read_shell},
+             {"SPC1", read_spc1},
+             {"SPC", read_spc},
+             {"SPCADD", read_spcadd},
+             {"RBE2", read_rbe2},
+             {"PSOLID", read_property},
+             {"MAT1", read_material},
+             {"PARAM", read_parameter},
+             {"CORD3G", refuse_card},
+             {"CORD1RX", refuse_card},
+             {"CORD2RX", refuse_card},
+             {"CORD3R", refuse_card},
+             {"CPENTA", refuse_card},
+             {"CPYRAM", refuse_card},
+             {"CPYRA", refuse_card},
+             {"CTETRA1", refuse_card},
+             {"CHEXA1", refuse_card},
+             {"CHEXA2", refuse_card},
+             {"CHEXA8", refuse_card},
+             {"CHEXA20", refuse_card},
+             {"CHEXAN", refuse_card},
+             {"GRIDB", refuse_card},
+             {"GRIDG", refuse_card},
+             {"EGRID", refuse_card},
+             {"CGEN", refuse_card},
+             {"SPCG", refuse_card},
+             {"BEGIN", refuse_card},
+             {"=", refuse_card}};
+
+static enum percuss_status read_card(struct bdf *bdf, const struct bdf_card *card)
+{
+    for (size_t i = 0; i < sizeof CARDS / sizeof *CARDS; i++)
+        if (strcmp(card->name, CARDS[i].name) == 0)
+            return CARDS[i].read(bdf, card);
+    return card->name[0] == '=' ? refuse_card(bdf, card) : count_other(bdf, card);
+}
+
+/* ---- files ---- */
+
+/* reads a file in place of the line that includes it */
+static enum percuss_status include_file(struct bdf *bdf, struct bdf_lines *lines,
+                                        const struct bdf_card *card)
+{
+    char path[BDF_PATH_SIZE];
+    if (bdf->depth == BDF_MOST_DEPTH)
+        return bdf_refuse(card, "must not be more than %d deep", BDF_MOST_DEPTH);
+    enum percuss_status status = bdf_include(lines, path);
+    if (status != PERCUSS_OK)
+        return status;
+    bdf->depth++;
+    status = read_bdf_file(bdf, path, lines->bulk);
+    bdf->depth--;
+    return status;
+}
+
+/* the path stays for messages about what is read */
+static bool keep_path(struct bdf *bdf, const char *path)
+{
+    if (!GROW(bdf->paths, bdf->path_count, bdf->path_room))
+        return false;
+    bdf->paths[bdf->path_count] = strdup(path);
+    return bdf->paths[bdf->path_count] && ++bdf->path_count;
+}
+
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, bool bulk)
+{
+    struct bdf_lines lines;
+    struct bdf_card card = {0};
+    const char *outer = bdf->path;
+    if (!keep_path(bdf, path))
+        return bdf_out_of_memory(bdf);
+    bdf->path = bdf->paths[bdf->path_count - 1];
+    enum percuss_status status = bdf_open(&lines, path, bulk, bdf->fault);
+    if (status != PERCUSS_OK)
+        return status;
+    while (bdf_next(&lines, &card, &status)) {
+        status = strcmp(card.name, "INCLUDE") == 0 ? include_file(bdf, &lines, &card)
+                                                   : read_card(bdf, &card);
+        if (status != PERCUSS_OK)
+            break;
+    }
+    bdf->path = outer;
+    bdf_card_free(&card);
+    scan_close(&lines.scan);
+    return status;
+}
+
+static void bdf_free(struct bdf *bdf)
+{
+    builder_free(&bdf->builder);
+    free(bdf->grids);
+    free(bdf->frames);
+    free(bdf->materials);
+    free(bdf->properties);
+    free(bdf->holds);
+    free(bdf->sums);
+    free(bdf->others);
+    for (size_t i = 0; i < bdf->path_count; i++)
+        free(bdf->paths[i]);
+    free(bdf->paths);
+}
+
+/* ---- coordinate systems ---- */
+
+static int compare_grids(const void *left, const void *right)
+{
+    const struct bdf_grid *a = left, *b = right;
+    return a->label < b->label ? -1 : a->label > b->label;
+}
+
+static int compare_frames(const void *left, const void *right)
+{
+    const struct bdf_frame *a = left, *b = right;
+    return a->label < b->label ? -1 : a->label > b->label;
+}
+
+static struct bdf_frame *find_frame(struct bdf *bdf, size_t label)
+{
+    struct bdf_frame key = {.label = label};
+    return bdf->frame_count
+               ? bsearch(&key, bdf->frames, bdf->frame_count, sizeof key, compare_frames)
+               : NULL;
+}
+
+/* a point of a known frame in the basic one; angles are in degrees, a sphere's the one from z first
+ */
+static void frame_place(const struct bdf_frame *frame, const double point[3], double place[3])
+{
+    double degree = M_PI / 180.0, local[3] = {point[0], point[1], point[2]};
+    if (frame->kind == 'C') {
+        local[0] = point[0] * cos(degree * point[1]);
+        local[1] = point[0] * sin(degree * point[1]);
+    } else if (frame->kind == 'S') {
+        double across = point[0] * sin(degree * point[1]);
+        local[0] = across * cos(degree * point[2]);
+        local[1] = across * sin(degree * point[2]);
+        local[2] = point[0] * cos(degree * point[1]);
+    }
+    memcpy(place, frame->origin, sizeof frame->origin);
+    for (int k = 0; k < 3; k++)
+        add_scaled3(local[k], frame->axes[k], place);
+}
+
+static enum percuss_status know_frame(struct bdf *bdf, struct bdf_frame *frame, int depth);
+
+/* a point in a frame by its number, 0 the basic one; `subject` names who asks */
+static enum percuss_status place_point(struct bdf *bdf, size_t label, const double point[3],
+                                       int depth, const char *subject, double place[3])
+{
+    memcpy(place, point, 3 * sizeof *place);
+    if (label == 0)
+        return PERCUSS_OK;
+    struct bdf_frame *frame = find_frame(bdf, label);
+    if (!frame)
+        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                         "%s: coordinate system %zu: must be one of the file's (CORD1R, CORD2R, "
+                         "CORD2C, ...)",
+                         subject, label);
+    enum percuss_status status = know_frame(bdf, frame, depth + 1);
+    if (status == PERCUSS_OK)
+        frame_place(frame, point, place);
+    return status;
+}
+
+static enum percuss_status place_grid(struct bdf *bdf, const struct bdf_grid *grid, int depth,
+                                      double place[3])
+{
+    char subject[BDF_PATH_SIZE + 64];
+    snprintf(subject, sizeof subject, "%s:%zu: GRID %zu", grid->file, grid->line, grid->label);
+    return place_point(bdf, grid->own_frame ? grid->frame : bdf->frame, grid->point, depth, subject,
+                       place);
+}
+
+/* the three points of a frame */
+static enum percuss_status place_frame_points(struct bdf *bdf, const struct bdf_frame *frame,
+                                              int depth, const char *subject, double points[3][3])
+{
+    enum percuss_status status = PERCUSS_OK;
+    for (int i = 0; i < 3 && status == PERCUSS_OK; i++) {
+        if (!frame->by_grids) {
+            status = place_point(bdf, frame->in, frame->points[i], depth, subject, points[i]);
+            continue;
+        }
+        struct bdf_grid key = {.label = frame->grids[i]};
+        const struct bdf_grid *grid =
+            bdf->grid_count ? bsearch(&key, bdf->grids, bdf->grid_count, sizeof key, compare_grids)
+                            : NULL;
+        if (!grid)
+            return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                             "%s: GRID %zu: must be one of the file's", subject, frame->grids[i]);
+        status = place_grid(bdf, grid, depth, points[i]);
+    }
+    return status;
+}
+
+/* origin and axes of a frame from those that it stands in */
+static enum percuss_status know_frame(struct bdf *bdf, struct bdf_frame *frame, int depth)
+{
+    char subject[BDF_PATH_SIZE + 64];
+    double points[3][3], *x = frame->axes[0], *y = frame->axes[1], *z = frame->axes[2];
+    if (frame->known)
+        return PERCUSS_OK;
+    snprintf(subject, sizeof subject, "%s:%zu: CORD%c%c %zu", frame->file, frame->line,
+             frame->by_grids ? '1' : '2', frame->kind, frame->label);
+    if (frame->busy || depth > MOST_CHAIN)
+        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                         "%s: stands in itself, or in more than %d "
+                         "others",
+                         subject, MOST_CHAIN);
+    frame->busy = true;
+    enum percuss_status status = place_frame_points(bdf, frame, depth, subject, points);
+    frame->busy = false;
+    if (status != PERCUSS_OK)
+        return status;
+    memcpy(frame->origin, points[0], sizeof frame->origin);
+    sub3(points[1], points[0], z);
+    sub3(points[2], points[0], x);
+    cross3(z, x, y);
+    if (!(norm3(y) > 1e-9 * norm3(z) * norm3(x)))
+        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                         "%s: its three points must not lie on a line", subject);
+    scale3(1.0 / norm3(z), z, z);
+    scale3(1.0 / norm3(y), y, y);
+    cross3(y, z, x);
+    frame->known = true;
+    return PERCUSS_OK;
+}
+
+/* GRIDs as nodes in the basic frame */
+static enum percuss_status place_grids(struct bdf *bdf)
+{
+    if (bdf->grid_count)
+        qsort(bdf->grids, bdf->grid_count, sizeof *bdf->grids, compare_grids);
+    if (bdf->frame_count)
+        qsort(bdf->frames, bdf->frame_count, sizeof *bdf->frames, compare_frames);
+    for (size_t i = 1; i < bdf->frame_count; i++)
+        if (bdf->frames[i].label == bdf->frames[i - 1].label)
+            return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                             "%s:%zu: coordinate system %zu: is there twice", bdf->frames[i].file,
+                             bdf->frames[i].line, bdf->frames[i].label);
+    for (size_t i = 0; i < bdf->grid_count; i++) {
+        double place[3];
+        const struct bdf_grid *grid = &bdf->grids[i];
+        enum percuss_status status = place_grid(bdf, grid, 0, place);
+        if (status != PERCUSS_OK)
+            return status;
+        if (!builder_add_node(&bdf->builder, grid->label, place) ||
+            (!grid->own_hold && (bdf->directions & TRANSLATIONS) &&
+             !bdf_hold_node(bdf, 0, grid->label, bdf->directions)))
+            return bdf_out_of_memory(bdf);
+    }
+    return PERCUSS_OK;
+}
+
+/* ---- sets, materials, notes ---- */
+
+static int compare_holds(const void *left, const void *right)
+{
+    const struct bdf_hold *a = left, *b = right;
+    if (a->set != b->set)
+        return a->set < b->set ? -1 : 1;
+    return a->node < b->node ? -1 : a->node > b->node;
+}
+
+/* a set has what its members hold, once, as MSC's sums do */
+static bool add_sums(struct bdf *bdf)
+{
+    size_t count = bdf->hold_count;
+    for (size_t s = 0; s < bdf->sum_count; s++)
+        for (size_t i = 0; i < count; i++)
+            if (bdf->holds[i].set == bdf->sums[s].member &&
+                !bdf_hold_node(bdf, bdf->sums[s].set, bdf->holds[i].node, bdf->holds[i].directions))
+                return false;
+    return true;
+}
+
+/* one set, from `first` to `end`: it has a name if it holds all its nodes in all directions, as
+ * --fixed does */
+static bool name_held(struct bdf *bdf, size_t first, size_t end)
+{
+    size_t label = bdf->holds[first].set;
+    char name[MESH_NAME_SIZE] = "GRID PS";
+    if (label > 0)
+        snprintf(name, sizeof name, "SPC %zu", label);
+    for (size_t i = first, next; i < end; i = next) {
+        unsigned directions = 0;
+        for (next = i; next < end && bdf->holds[next].node == bdf->holds[i].node; next++)
+            directions |= bdf->holds[next].directions;
+        if ((directions & TRANSLATIONS) != TRANSLATIONS)
+            return builder_note(&bdf->builder,
+                                "%s holds node %zu in some directions alone, which --fixed cannot: "
+                                "this set is not taken",
+                                name, bdf->holds[i].node);
+    }
+    size_t set = builder_set(&bdf->builder, name);
+    for (size_t i = first; i < end && set != SIZE_MAX; i++)
+        if (!builder_append(&bdf->builder.sets[set].labels, bdf->holds[i].node))
+            return false;
+    return set != SIZE_MAX;
+}
+
+static bool name_all_held(struct bdf *bdf)
+{
+    if (!add_sums(bdf))
+        return false;
+    if (bdf->hold_count)
+        qsort(bdf->holds, bdf->hold_count, sizeof *bdf->holds, compare_holds);
+    for (size_t first = 0, end; first < bdf->hold_count; first = end) {
+        for (end = first; end < bdf->hold_count && bdf->holds[end].set == bdf->holds[first].set;)
+            end++;
+        if (!name_held(bdf, first, end))
+            return false;
+    }
+    return true;
+}
+
+static enum percuss_status give_part_material(struct bdf *bdf, const struct bdf_material *material,
+                                              double unit, struct mesh_part *part)
+{
+    char where[BDF_PATH_SIZE + 32], name[48];
+    snprintf(where, sizeof where, "%s:%zu", material->file, material->line);
+    snprintf(name, sizeof name, "MAT1 %zu", material->label);
+    struct file_material stated = {.file = where,
+                                   .name = name,
+                                   .young_field = "E",
+                                   .density_field = "RHO",
+                                   .young = material->young,
+                                   .poisson = material->poisson,
+                                   .density = material->density * bdf->mass_factor};
+    if (!material->has_density)
+        return builder_note(&bdf->builder, "%s: %s has no RHO: the material of %s must be given",
+                            where, name, part->name)
+                   ? PERCUSS_OK
+                   : bdf_out_of_memory(bdf);
+    part->has_material = true;
+    enum percuss_status status = file_material_convert(&stated, unit, &part->material, bdf->fault);
+    /* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then
+     */
+    bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;
+    if (status == PERCUSS_OK && imperial &&
+        !builder_note(&bdf->builder,
+                      "%s: %s is read in newtons: E %.4g Pa, RHO %.4g kg/m^3; of a deck in "
+                      "pounds-force give the material yourself",
+                      where, name, part->material.young, part->material.density))
+        return bdf_out_of_memory(bdf);
+    return status;
+}
+
+/* the MAT1 of each PSOLID that has elements; other materials are the caller's to state */
+static enum percuss_status give_materials(struct bdf *bdf, double unit)
+{
+    size_t parts = bdf->builder.part_count;
+    for (size_t i = 0; i < bdf->property_count; i++) {
+        const struct bdf_property *property = &bdf->properties[i];
+        size_t part = property_part(bdf, property->label);
+        if (part == SIZE_MAX)
+            return bdf_out_of_memory(bdf);
+        if (part >= parts)
+            continue;
+        for (size_t m = 0; m < bdf->material_count; m++) {
+            if (bdf->materials[m].label != property->material)
+                continue;
+            enum percuss_status status =
+                give_part_material(bdf, &bdf->materials[m], unit, &bdf->builder.parts[part]);
+            if (status != PERCUSS_OK)
+                return status;
+        }
+    }
+    return PERCUSS_OK;
+}
+
+/* one note of the cards that are not read */
+static bool note_others(struct bdf *bdf)
+{
+    char names[MESH_NOTE_SIZE] = "";
+    size_t filled = 0, i = 0;
+    for (; i < bdf->other_count && filled < sizeof names - 100; i++)
+        filled += (size_t)snprintf(names + filled, sizeof names - filled, "%s%s (line %zu)",
+                                   i ? ", " : "", bdf->others[i].name, bdf->others[i].line);
+    if (bdf->other_count == 0)
+        return true;
+    return builder_note(&bdf->builder, "cards that are not read, and no part of the body: %s%s",
+                        names, i < bdf->other_count ? " and more" : "");
+}
+
+/* a body of shells alone */
+static enum percuss_status check_solids(const struct bdf *bdf)
+{
+    if (bdf->builder.element_count > 0 || bdf->shells == 0)
+        return PERCUSS_OK;
+    return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                     "%s: has %zu shells (CQUAD4, CTRIA3, ...) and no solid: mesh the volume with "
+                     "CTETRA of 10 or CHEXA of 20 nodes, or give the part as STEP",
+                     bdf->file, bdf->shells);
+}
+
+enum percuss_status bdf_read(const char *path, double unit, bool raise, struct solid_mesh *mesh,
+                             struct fault *fault)
+{
+    struct bdf bdf = {.fault = fault, .file = path, .mass_factor = 1.0};
+    bdf.builder.raise = raise;
+    memset(mesh, 0, sizeof *mesh);
+    enum percuss_status status = read_bdf_file(&bdf, path, false);
+    if (status == PERCUSS_OK)
+        status = check_solids(&bdf);
+    if (status == PERCUSS_OK)
+        status = place_grids(&bdf);
+    if (status == PERCUSS_OK)
+        status = give_materials(&bdf, unit);
+    if (status == PERCUSS_OK && !(name_all_held(&bdf) && note_others(&bdf)))
+        status = bdf_out_of_memory(&bdf);
+    if (status == PERCUSS_OK)
+        status = builder_finish(&bdf.builder, path, unit, mesh, fault);
+    bdf_free(&bdf);
+    return status;
+}
