@@ -19,6 +19,7 @@
 #include "mesh/card.h"
 #include "mesh/inp.h"
 #include "mesh/msh.h"
+#include "mesh/vtk_legacy.h"
 
 /* Units of length, by percuss's names and by those of Gmsh's geometry kernel. */
 static const struct {
@@ -259,6 +260,7 @@ enum format {
     FORMAT_MSH,
     FORMAT_INP,
     FORMAT_BDF,
+    FORMAT_VTK,
     FORMAT_MESHED, /* Gmsh converts it */
     FORMAT_SHAPE,  /* Gmsh meshes it */
     FORMAT_SURFACE /* Gmsh fills it */
@@ -272,7 +274,7 @@ static const struct {
              {".nas", FORMAT_BDF},    {".step", FORMAT_SHAPE},  {".stp", FORMAT_SHAPE},
              {".iges", FORMAT_SHAPE}, {".igs", FORMAT_SHAPE},   {".brep", FORMAT_SHAPE},
              {".geo", FORMAT_SHAPE},  {".stl", FORMAT_SURFACE}, {".unv", FORMAT_MESHED},
-             {".vtk", FORMAT_MESHED}, {".mesh", FORMAT_MESHED}};
+             {".vtk", FORMAT_VTK},    {".mesh", FORMAT_MESHED}};
 
 /* by the first line that is neither empty nor a comment */
 static const struct {
@@ -283,7 +285,7 @@ static const struct {
     {"*PART", FORMAT_INP},       {"*INCLUDE", FORMAT_INP},      {"*PREPRINT", FORMAT_INP},
     {"BEGIN BULK", FORMAT_BDF},  {"GRID ", FORMAT_BDF},         {"GRID*", FORMAT_BDF},
     {"GRID,", FORMAT_BDF},       {"SOL ", FORMAT_BDF},          {"CEND", FORMAT_BDF},
-    {"# vtk", FORMAT_MESHED},    {"ISO-10303-21", FORMAT_SHAPE}};
+    {"# vtk", FORMAT_VTK},       {"ISO-10303-21", FORMAT_SHAPE}};
 
 enum { BEGINNING_SIZE = 256, MOST_COMMENTS = 1000 };
 
@@ -357,6 +359,8 @@ static enum percuss_status read_format(const char *path, enum format format,
         return inp_read(path, options->unit, mesh, fault);
     case FORMAT_BDF:
         return bdf_read(path, options->unit, options->raise, mesh, fault);
+    case FORMAT_VTK:
+        return vtk_legacy_read(path, options->unit, options->raise, mesh, fault);
     case FORMAT_MSH:
         if (msh_is_readable(path))
             return msh_read(path, path, options->unit, mesh, fault);
@@ -372,8 +376,8 @@ static enum percuss_status read_format(const char *path, enum format format,
     }
     return fault_set(
         fault, PERCUSS_BAD_REQUEST,
-        "%s: its name must end with .msh, .inp, .bdf, .nas, .step, .stp, .iges, .igs, .brep, .geo, "
-        ".stl, .unv, .vtk or .mesh",
+        "%s: its name must end with .msh, .inp, .bdf, .nas, .vtk, .step, .stp, .iges, .igs, .brep, "
+        ".geo, .stl, .unv or .mesh",
         path);
 }
 
