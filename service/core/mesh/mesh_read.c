@@ -19,6 +19,7 @@
 #include "mesh/card.h"
 #include "mesh/inp.h"
 #include "mesh/msh.h"
+#include "mesh/unv.h"
 #include "mesh/vtk_legacy.h"
 
 /* Units of length, by percuss's names and by those of Gmsh's geometry kernel. */
@@ -261,6 +262,7 @@ enum format {
     FORMAT_INP,
     FORMAT_BDF,
     FORMAT_VTK,
+    FORMAT_UNV,
     FORMAT_MESHED, /* Gmsh converts it */
     FORMAT_SHAPE,  /* Gmsh meshes it */
     FORMAT_SURFACE /* Gmsh fills it */
@@ -273,7 +275,7 @@ static const struct {
 } NAMES[] = {{".msh", FORMAT_MSH},    {".inp", FORMAT_INP},     {".bdf", FORMAT_BDF},
              {".nas", FORMAT_BDF},    {".step", FORMAT_SHAPE},  {".stp", FORMAT_SHAPE},
              {".iges", FORMAT_SHAPE}, {".igs", FORMAT_SHAPE},   {".brep", FORMAT_SHAPE},
-             {".geo", FORMAT_SHAPE},  {".stl", FORMAT_SURFACE}, {".unv", FORMAT_MESHED},
+             {".geo", FORMAT_SHAPE},  {".stl", FORMAT_SURFACE}, {".unv", FORMAT_UNV},
              {".vtk", FORMAT_VTK},    {".mesh", FORMAT_MESHED}};
 
 /* by the first line that is neither empty nor a comment */
@@ -281,11 +283,12 @@ static const struct {
     const char *begin;
     enum format format;
 } BEGINNINGS[] = {
-    {"$MeshFormat", FORMAT_MSH}, {"*NODE", FORMAT_INP},         {"*HEADING", FORMAT_INP},
-    {"*PART", FORMAT_INP},       {"*INCLUDE", FORMAT_INP},      {"*PREPRINT", FORMAT_INP},
-    {"BEGIN BULK", FORMAT_BDF},  {"GRID ", FORMAT_BDF},         {"GRID*", FORMAT_BDF},
-    {"GRID,", FORMAT_BDF},       {"SOL ", FORMAT_BDF},          {"CEND", FORMAT_BDF},
-    {"# vtk", FORMAT_VTK},       {"ISO-10303-21", FORMAT_SHAPE}};
+    {"$MeshFormat", FORMAT_MSH},   {"*NODE", FORMAT_INP},    {"*HEADING", FORMAT_INP},
+    {"*PART", FORMAT_INP},         {"*INCLUDE", FORMAT_INP}, {"*PREPRINT", FORMAT_INP},
+    {"BEGIN BULK", FORMAT_BDF},    {"GRID ", FORMAT_BDF},    {"GRID*", FORMAT_BDF},
+    {"GRID,", FORMAT_BDF},         {"SOL ", FORMAT_BDF},     {"CEND", FORMAT_BDF},
+    {"# vtk", FORMAT_VTK},         {"-1\n", FORMAT_UNV},     {"-1\r", FORMAT_UNV},
+    {"ISO-10303-21", FORMAT_SHAPE}};
 
 enum { BEGINNING_SIZE = 256, MOST_COMMENTS = 1000 };
 
@@ -361,6 +364,8 @@ static enum percuss_status read_format(const char *path, enum format format,
         return bdf_read(path, options->unit, options->raise, mesh, fault);
     case FORMAT_VTK:
         return vtk_legacy_read(path, options->unit, options->raise, mesh, fault);
+    case FORMAT_UNV:
+        return unv_read(path, options->unit, options->raise, mesh, fault);
     case FORMAT_MSH:
         if (msh_is_readable(path))
             return msh_read(path, path, options->unit, mesh, fault);
@@ -376,8 +381,8 @@ static enum percuss_status read_format(const char *path, enum format format,
     }
     return fault_set(
         fault, PERCUSS_BAD_REQUEST,
-        "%s: its name must end with .msh, .inp, .bdf, .nas, .vtk, .step, .stp, .iges, .igs, .brep, "
-        ".geo, .stl, .unv or .mesh",
+        "%s: its name must end with .msh, .inp, .bdf, .nas, .vtk, .unv, .step, .stp, .iges, .igs, "
+        ".brep, .geo, .stl or .mesh",
         path);
 }
 

@@ -18,12 +18,13 @@ struct mesh_options {
 /* The metres of "m", "cm", "mm", "um", "in", "ft"; 0: another text. */
 double mesh_read_unit(const char *name);
 
-/* Reads Gmsh's .msh 4.1 (text or binary), VTK's legacy files (.vtk), decks of Abaqus and CalculiX
- * (.inp) and Nastran (.bdf .nas), and runs Gmsh for other formats (.step .stp .iges .igs .brep .stl
- * .geo .unv .mesh, .msh of other versions). The contents say which one it is; the name where they
- * leave it open. Converts the file's materials from units of N, s and its length to SI. Drops nodes
- * without elements. PERCUSS_BAD_REQUEST with "FILE:LINE: ..." unless it is a body of 10-node
- * tetrahedra and 20- or 27-node hexahedra. Free the mesh with solid_mesh_free. */
+/* Reads Gmsh's .msh 4.1 (text or binary), decks of Abaqus and CalculiX (.inp) and Nastran (.bdf
+ * .nas), VTK's legacy files (.vtk) and universal files (.unv), and runs Gmsh for other formats
+ * (.step .stp .iges .igs .brep .stl .geo .mesh, .msh of other versions). The contents say which one
+ * it is; the name where they leave it open. Converts the file's materials from units of N, s and
+ * its length to SI. Drops nodes without elements. PERCUSS_BAD_REQUEST with "FILE:LINE: ..." unless
+ * it is a body of 10-node tetrahedra and 20- or 27-node hexahedra. Free the mesh with
+ * solid_mesh_free. */
 enum percuss_status mesh_read(const char *path, const struct mesh_options *options,
                               struct solid_mesh *mesh, struct fault *fault);
 

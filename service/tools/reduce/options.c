@@ -308,12 +308,12 @@ struct options options_read(int argc, char **argv)
         .parser = parse,
         .children = habits,
         .args_doc = "FILE",
-        .doc = "Reduces a body that is given as a mesh of second-order elements to its modes of "
-               "vibration and what else an impact needs of it, in a file for the catalogue."
-               "\vFILE is Gmsh's .msh, a deck of Abaqus, CalculiX (.inp) or Nastran (.bdf); .step, "
-               ".stl, .unv, .vtk and more where Gmsh is installed. The report goes to standard "
-               "output, progress to "
-               "standard error.",
+        .doc =
+            "Reduces a body that is given as a mesh of second-order elements to its modes of "
+            "vibration and what else an impact needs of it, in a file for the catalogue."
+            "\vFILE is Gmsh's .msh, VTK's .vtk, .unv, a deck of Abaqus, CalculiX (.inp) or Nastran "
+            "(.bdf); .step, .stl and more where Gmsh is installed. The report goes to "
+            "standard output, progress to standard error.",
     };
     struct options options = {.young = NAN, .poisson = NAN, .density = NAN, .unit = 1.0};
     argp_err_exit_status = USAGE;

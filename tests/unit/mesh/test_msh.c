@@ -171,7 +171,8 @@ static void refuses_what_is_asked_badly(void **state)
     assert_int_equal(mesh_read("part.txt", &(struct mesh_options){.unit = 1.0}, &mesh, &file_fault),
                      PERCUSS_BAD_REQUEST);
     assert_non_null(
-        strstr(file_fault.text, "part.txt: its name must end with .msh, .inp, .bdf, .nas, .vtk, .step"));
+        strstr(file_fault.text,
+               "part.txt: its name must end with .msh, .inp, .bdf, .nas, .vtk, .unv, .step"));
     assert_int_equal(mesh_read("part.msh", &(struct mesh_options){.unit = 0.0}, &mesh, &file_fault),
                      PERCUSS_BAD_REQUEST);
     assert_string_equal(file_fault.text, "unit: 0: must be > 0 m");
