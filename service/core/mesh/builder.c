@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/bulk.h"
 #include "mesh/element.h"
 #include "mesh/grow.h"
 
@@ -350,9 +351,8 @@ static enum percuss_status builder_allocate_mesh(const struct builder *builder, 
     mesh->element_labels = malloc((elements + 1) * sizeof *mesh->element_labels);
     mesh->part = calloc(builder->part_count + 1, sizeof *mesh->part);
     mesh->set = calloc(builder->set_count + 1, sizeof *mesh->set);
-    mesh->notes = malloc((builder->note_count + 1) * sizeof *mesh->notes);
     return mesh->points && mesh->labels && mesh->types && mesh->first && mesh->nodes &&
-                   mesh->parts && mesh->element_labels && mesh->part && mesh->set && mesh->notes
+                   mesh->parts && mesh->element_labels && mesh->part && mesh->set
                ? PERCUSS_OK
                : builder_out_of_memory(file, fault);
 }
@@ -461,11 +461,55 @@ static bool place_sets(const struct builder *builder, const struct index *index,
     return true;
 }
 
-static void place_notes(const struct builder *builder, struct solid_mesh *mesh)
+/* an element's nodes the other way round: its first two natural coordinates change places */
+static void turn_over(enum element_type type, size_t *nodes)
 {
+    size_t count = element_node_count(type), turned[ELEMENT_MOST_NODES];
+    for (size_t i = 0; i < count; i++) {
+        double at[3], other[3];
+        element_node(type, i, at);
+        for (size_t j = 0; j < count; j++) {
+            element_node(type, j, other);
+            if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2])
+                turned[i] = nodes[j];
+        }
+    }
+    memcpy(nodes, turned, count * sizeof *nodes);
+}
+
+/* Elements whose nodes run the wrong way round, as in a mirrored mesh or a group that is turned
+ * over in Gmsh, are the same elements the other way round. Those that are folded stay as they are.
+ */
+static bool turn_elements(struct builder *builder, struct solid_mesh *mesh)
+{
+    size_t count = 0, first = 0;
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        double volume;
+        size_t *nodes = mesh->nodes + mesh->first[e];
+        bulk_element_det(mesh, e, &volume);
+        if (!(volume < 0.0))
+            continue;
+        turn_over(mesh->types[e], nodes);
+        if (!(bulk_element_det(mesh, e, &volume) > 0.0))
+            turn_over(mesh->types[e], nodes);
+        else if (count++ == 0)
+            first = mesh->element_labels[e];
+    }
+    return count == 0 || builder_note(builder,
+                                      "%zu elements (element %zu first) had their nodes the wrong "
+                                      "way round, as in a mirrored mesh: they were turned over",
+                                      count, first);
+}
+
+static bool place_notes(const struct builder *builder, struct solid_mesh *mesh)
+{
+    mesh->notes = malloc((builder->note_count + 1) * sizeof *mesh->notes);
+    if (!mesh->notes)
+        return false;
     mesh->note_count = builder->note_count;
     for (size_t i = 0; i < builder->note_count; i++)
         memcpy(mesh->notes[i], builder->notes[i], sizeof mesh->notes[i]);
+    return true;
 }
 
 enum percuss_status builder_finish(struct builder *builder, const char *file, double unit,
@@ -496,8 +540,8 @@ enum percuss_status builder_finish(struct builder *builder, const char *file, do
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
         status = builder_out_of_memory(file, fault);
-    if (status == PERCUSS_OK)
-        place_notes(builder, mesh);
+    if (status == PERCUSS_OK && !(turn_elements(builder, mesh) && place_notes(builder, mesh)))
+        status = builder_out_of_memory(file, fault);
     /* an error frees the unfinished mesh */
     free(index.labels);
     free(index.numbers);

@@ -254,8 +254,6 @@ enum percuss_status mesh_check(const struct solid_mesh *mesh, const struct surfa
                                struct mesh_findings *findings, struct fault *fault)
 {
     memset(findings, 0, sizeof *findings);
-    for (size_t i = 0; i < mesh->note_count; i++)
-        remark(findings, "%s", mesh->notes[i]);
     if (mesh->element_count == 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "elements: 0: a mesh must have some");
     enum percuss_status status = check_shapes(mesh, findings, fault);

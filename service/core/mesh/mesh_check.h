@@ -7,14 +7,14 @@
 
 #include "mesh/surface.h"
 
-enum { MESH_REMARKS = 12, MESH_REMARK_SIZE = MESH_NOTE_SIZE };
+enum { MESH_REMARKS = 6, MESH_REMARK_SIZE = 240 };
 
 struct mesh_findings {
     double least_jacobian; /* over all elements: least det J over its mean within the element */
     size_t least_element;  /* its element: the file's number */
     double extent[3];      /* of the box about it, m */
     double volume;         /* m^3 */
-    size_t remark_count;   /* warnings; the notes of the mesh's reader are the first */
+    size_t remark_count;   /* warnings */
     char remarks[MESH_REMARKS][MESH_REMARK_SIZE];
 };
 

@@ -11,13 +11,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "mesh/bdf.h"
 #include "mesh/card.h"
 #include "mesh/inp.h"
+#include "mesh/mesh_format.h"
 #include "mesh/msh.h"
 #include "mesh/unv.h"
 #include "mesh/vtk_legacy.h"
@@ -198,6 +198,8 @@ static void fill_arguments(const char *path, enum gmsh_task task, double unit, c
         add_argument(arguments, "-clmax");
         add_argument(arguments, size);
     }
+    /* groups name parts and sets; they do not choose what is saved */
+    add_number(arguments, "Mesh.SaveAll", "1");
     /* the same mesh every time */
     add_number(arguments, "General.NumThreads", "1");
     add_argument(arguments, "-nopopup");
@@ -254,43 +256,7 @@ static void gmsh_forget(const struct gmsh_file *file)
     rmdir(file->folder);
 }
 
-/* ---- which format a file has ---- */
-
-enum format {
-    FORMAT_NONE,
-    FORMAT_MSH,
-    FORMAT_INP,
-    FORMAT_BDF,
-    FORMAT_VTK,
-    FORMAT_UNV,
-    FORMAT_MESHED, /* Gmsh converts it */
-    FORMAT_SHAPE,  /* Gmsh meshes it */
-    FORMAT_SURFACE /* Gmsh fills it */
-};
-
-/* by the end of its name */
-static const struct {
-    const char *suffix;
-    enum format format;
-} NAMES[] = {{".msh", FORMAT_MSH},    {".inp", FORMAT_INP},     {".bdf", FORMAT_BDF},
-             {".nas", FORMAT_BDF},    {".step", FORMAT_SHAPE},  {".stp", FORMAT_SHAPE},
-             {".iges", FORMAT_SHAPE}, {".igs", FORMAT_SHAPE},   {".brep", FORMAT_SHAPE},
-             {".geo", FORMAT_SHAPE},  {".stl", FORMAT_SURFACE}, {".unv", FORMAT_UNV},
-             {".vtk", FORMAT_VTK},    {".mesh", FORMAT_MESHED}};
-
-/* by the first line that is neither empty nor a comment */
-static const struct {
-    const char *begin;
-    enum format format;
-} BEGINNINGS[] = {
-    {"$MeshFormat", FORMAT_MSH},   {"*NODE", FORMAT_INP},    {"*HEADING", FORMAT_INP},
-    {"*PART", FORMAT_INP},         {"*INCLUDE", FORMAT_INP}, {"*PREPRINT", FORMAT_INP},
-    {"BEGIN BULK", FORMAT_BDF},    {"GRID ", FORMAT_BDF},    {"GRID*", FORMAT_BDF},
-    {"GRID,", FORMAT_BDF},         {"SOL ", FORMAT_BDF},     {"CEND", FORMAT_BDF},
-    {"# vtk", FORMAT_VTK},         {"-1\n", FORMAT_UNV},     {"-1\r", FORMAT_UNV},
-    {"ISO-10303-21", FORMAT_SHAPE}};
-
-enum { BEGINNING_SIZE = 256, MOST_COMMENTS = 1000 };
+/* ---- reading ---- */
 
 double mesh_read_unit(const char *name)
 {
@@ -300,46 +266,6 @@ double mesh_read_unit(const char *name)
     return 0.0;
 }
 
-static const char *suffix_of(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-    return dot && (!slash || dot > slash) ? dot : "";
-}
-
-/* The first line that says something: not empty, no comment of a deck ("**") or of bulk data ("$ ",
- * "$*", "$$"). */
-static void first_line(const char *path, char line[BEGINNING_SIZE])
-{
-    FILE *stream = fopen(path, "rb");
-    line[0] = '\0';
-    for (int i = 0; stream && i < MOST_COMMENTS && fgets(line, BEGINNING_SIZE, stream); i++) {
-        size_t blank = strspn(line, " \t\r\n\xEF\xBB\xBF");
-        memmove(line, line + blank, strlen(line + blank) + 1);
-        bool comment = strncmp(line, "**", 2) == 0 ||
-                       (line[0] == '$' && strncmp(line, "$MeshFormat", 11) != 0);
-        if (line[0] && !comment)
-            break;
-    }
-    if (stream)
-        fclose(stream);
-}
-
-static enum format format_of(const char *path)
-{
-    char line[BEGINNING_SIZE];
-    const char *suffix = suffix_of(path);
-    first_line(path, line);
-    for (size_t i = 0; i < sizeof BEGINNINGS / sizeof *BEGINNINGS; i++)
-        if (strncasecmp(line, BEGINNINGS[i].begin, strlen(BEGINNINGS[i].begin)) == 0)
-            return BEGINNINGS[i].format;
-    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
-        if (strcasecmp(suffix, NAMES[i].suffix) == 0)
-            return NAMES[i].format;
-    return FORMAT_NONE;
-}
-
-/* ---- reading ---- */
-
 static enum percuss_status read_through_gmsh(const char *path, enum gmsh_task task,
                                              const struct mesh_options *options,
                                              struct solid_mesh *mesh, struct fault *fault)
@@ -348,42 +274,40 @@ static enum percuss_status read_through_gmsh(const char *path, enum gmsh_task ta
     enum percuss_status status =
         gmsh_run(path, task, options->unit, options->size / options->unit, &file, fault);
     if (status == PERCUSS_OK)
-        status = msh_read(file.mesh, path, options->unit, mesh, fault);
+        status = msh_read(&(struct msh_source){file.mesh, path, true}, options->unit,
+                          options->raise, mesh, fault);
     gmsh_forget(&file);
     return status;
 }
 
-static enum percuss_status read_format(const char *path, enum format format,
+static enum percuss_status read_format(const char *path, enum mesh_format format,
                                        const struct mesh_options *options, struct solid_mesh *mesh,
                                        struct fault *fault)
 {
     switch (format) {
-    case FORMAT_INP:
+    case MESH_FORMAT_INP:
         return inp_read(path, options->unit, mesh, fault);
-    case FORMAT_BDF:
+    case MESH_FORMAT_BDF:
         return bdf_read(path, options->unit, options->raise, mesh, fault);
-    case FORMAT_VTK:
+    case MESH_FORMAT_VTK:
         return vtk_legacy_read(path, options->unit, options->raise, mesh, fault);
-    case FORMAT_UNV:
+    case MESH_FORMAT_UNV:
         return unv_read(path, options->unit, options->raise, mesh, fault);
-    case FORMAT_MSH:
+    case MESH_FORMAT_MSH:
         if (msh_is_readable(path))
-            return msh_read(path, path, options->unit, mesh, fault);
+            return msh_read(&(struct msh_source){path, path, false}, options->unit, options->raise,
+                            mesh, fault);
         return read_through_gmsh(path, GMSH_CONVERT, options, mesh, fault);
-    case FORMAT_MESHED:
+    case MESH_FORMAT_MESHED:
         return read_through_gmsh(path, GMSH_CONVERT, options, mesh, fault);
-    case FORMAT_SHAPE:
+    case MESH_FORMAT_SHAPE:
         return read_through_gmsh(path, GMSH_MESH, options, mesh, fault);
-    case FORMAT_SURFACE:
+    case MESH_FORMAT_SURFACE:
         return read_through_gmsh(path, GMSH_FILL, options, mesh, fault);
-    case FORMAT_NONE:
+    case MESH_FORMAT_NONE:
         break;
     }
-    return fault_set(
-        fault, PERCUSS_BAD_REQUEST,
-        "%s: its name must end with .msh, .inp, .bdf, .nas, .vtk, .unv, .step, .stp, .iges, .igs, "
-        ".brep, .geo, .stl or .mesh",
-        path);
+    return mesh_format_refuse(path, fault);
 }
 
 enum percuss_status mesh_read(const char *path, const struct mesh_options *options,
@@ -394,14 +318,14 @@ enum percuss_status mesh_read(const char *path, const struct mesh_options *optio
         return fault_set(fault, PERCUSS_BAD_REQUEST, "unit: %g: must be > 0 m", options->unit);
     if (!(options->size >= 0.0 && isfinite(options->size)))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "size: %g: must be >= 0 m", options->size);
-    return read_format(path, format_of(path), options, mesh, fault);
+    return read_format(path, mesh_format_of(path), options, mesh, fault);
 }
 
 /* ---- digest of a mesh's files ---- */
 
 struct digest_walk {
     struct sha256 *hash;
-    enum format format; /* follow the files that its decks include */
+    enum mesh_format format; /* follow the files that its decks include */
     int depth;
     bool done; /* after *STEP: the reader stops there */
 };
@@ -471,16 +395,16 @@ static enum percuss_status digest_add_file(struct digest_walk *digest, const cha
     if (digest->depth > 0)
         sha256_add(digest->hash, &size, sizeof size);
     sha256_add(digest->hash, scan.text, scan.size);
-    while (!status && digest->format == FORMAT_INP && !digest->done &&
+    while (!status && digest->format == MESH_FORMAT_INP && !digest->done &&
            card_line(&scan, line, &refused))
         if (line[0] == '*')
             status = digest_follow(digest, &scan, line);
     scan_close(&scan);
-    return digest->format == FORMAT_BDF ? digest_follow_bdf(digest, path, fault) : status;
+    return digest->format == MESH_FORMAT_BDF ? digest_follow_bdf(digest, path, fault) : status;
 }
 
 enum percuss_status mesh_digest(const char *path, struct sha256 *hash, struct fault *fault)
 {
-    struct digest_walk digest = {.hash = hash, .format = format_of(path)};
+    struct digest_walk digest = {.hash = hash, .format = mesh_format_of(path)};
     return digest_add_file(&digest, path, fault);
 }

@@ -3,6 +3,7 @@
 
 #include "mesh/msh.h"
 
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,11 +26,17 @@ struct msh_member {
     int dimension, entity, tag;
 };
 
+/* A volume of one partition, and the volume of the geometry that it is a part of. */
+struct msh_share {
+    int entity, parent;
+};
+
 /* Zeroed to begin with; owns its arrays. */
 struct msh_groups {
-    size_t group_count, group_room, member_count, member_room;
+    size_t group_count, group_room, member_count, member_room, share_count, share_room;
     struct msh_group *groups;
     struct msh_member *members;
+    struct msh_share *shares;
 };
 
 /* False: out of memory. */
@@ -75,12 +82,13 @@ static void msh_groups_free(struct msh_groups *groups)
 {
     free(groups->groups);
     free(groups->members);
+    free(groups->shares);
     memset(groups, 0, sizeof *groups);
 }
 
 /* ---- the file ---- */
 
-enum { LINE_SIZE = 256, MOST_ENTITY_TAGS = 4 };
+enum { LINE_SIZE = 256, MOST_ENTITY_TAGS = 64 };
 
 /* Gmsh's numbers of types of elements; 0 nodes: unknown */
 enum { MSH_TET4 = 4, MSH_HEX8 = 5, MSH_TET10 = 11, MSH_HEX27 = 12, MSH_HEX20 = 17 };
@@ -113,6 +121,11 @@ struct msh {
     struct scan scan;
     struct builder builder;
     struct msh_groups groups;
+    const char *file;               /* the user's */
+    bool made;                      /* Gmsh has made the mesh of it */
+    size_t flat;                    /* number of faces, lines and points */
+    bool grouped;                   /* a volume is in a physical group */
+    char alone[MESH_NOTE_SIZE / 2]; /* volumes that are in none */
 };
 
 static enum percuss_status msh_out_of_memory(const struct msh *msh)
@@ -175,26 +188,30 @@ static enum percuss_status read_names(struct msh *msh)
     return PERCUSS_OK;
 }
 
-/* one point, curve, surface or volume: its box, its physical groups, its boundary */
-static enum percuss_status read_entity(struct msh *msh, int dimension)
+/* the box of an entity, its physical groups, which are kept if `dimension` is theirs, its boundary
+ */
+static enum percuss_status read_membership(struct msh *msh, int dimension, int entity, bool keep)
 {
     struct scan *scan = &msh->scan;
-    int entity, tag;
     double box;
     size_t count;
-    /* its number; its box is not used */
-    if (!scan_integer(scan, "entity", &entity))
-        return PERCUSS_BAD_REQUEST;
+    int tag;
     for (int i = 0; i < (dimension == 0 ? 3 : 6); i++)
         if (!scan_real(scan, "entity's box", &box))
             return PERCUSS_BAD_REQUEST;
-    /* the groups it belongs to */
+    /* the groups it belongs to, negative where it is turned over in them */
     if (!scan_count(scan, "entity's physical groups", &count))
         return PERCUSS_BAD_REQUEST;
+    if (count > MOST_ENTITY_TAGS)
+        return scan_refuse(scan, "physical groups of an entity: %zu: must be at most %d", count,
+                           MOST_ENTITY_TAGS);
     for (size_t i = 0; i < count; i++) {
         if (!scan_integer(scan, "physical group", &tag))
             return PERCUSS_BAD_REQUEST;
-        if (!msh_groups_join(&msh->groups, (struct msh_member){dimension, entity, tag}))
+        if (tag == INT_MIN)
+            return scan_refuse(scan, "physical group: %d: must be a number of 31 bits", tag);
+        if (keep &&
+            !msh_groups_join(&msh->groups, (struct msh_member){dimension, entity, abs(tag)}))
             return msh_out_of_memory(msh);
     }
     /* its boundary is not used; a point has none */
@@ -206,6 +223,82 @@ static enum percuss_status read_entity(struct msh *msh, int dimension)
         if (!scan_integer(scan, "entity's boundary", &tag))
             return PERCUSS_BAD_REQUEST;
     return PERCUSS_OK;
+}
+
+/* one point, curve, surface or volume */
+static enum percuss_status read_entity(struct msh *msh, int dimension)
+{
+    int entity;
+    return scan_integer(&msh->scan, "entity", &entity)
+               ? read_membership(msh, dimension, entity, true)
+               : PERCUSS_BAD_REQUEST;
+}
+
+/* one of a partition: what it is a part of, and its partitions. Of two partitions' common surface
+ * the groups are those of the volume, which are no surface's. `present` marks partitions that have
+ * a volume */
+static enum percuss_status read_partitioned(struct msh *msh, int dimension, bool *present,
+                                            size_t partitions)
+{
+    struct scan *scan = &msh->scan;
+    int entity, parent_dimension, parent, partition;
+    size_t count;
+    if (!scan_integer(scan, "entity", &entity) ||
+        !scan_integer(scan, "parent's dimension", &parent_dimension) ||
+        !scan_integer(scan, "parent", &parent) || !scan_count(scan, "partitions", &count))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t i = 0; i < count; i++) {
+        if (!scan_integer(scan, "partition", &partition))
+            return PERCUSS_BAD_REQUEST;
+        if (dimension == 3 && partition > 0 && (size_t)partition <= partitions)
+            present[partition - 1] = true;
+    }
+    struct msh_groups *groups = &msh->groups;
+    if (dimension == 3) {
+        if (!GROW(groups->shares, groups->share_count, groups->share_room))
+            return msh_out_of_memory(msh);
+        groups->shares[groups->share_count++] = (struct msh_share){entity, parent};
+    }
+    return read_membership(msh, dimension, entity, parent_dimension == dimension);
+}
+
+/* all partitions must have their volumes in the file */
+static enum percuss_status check_partitions(const struct msh *msh, const bool *present,
+                                            size_t partitions, size_t volumes)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < partitions; i++)
+        count += present[i];
+    return count == partitions || volumes == 0
+               ? PERCUSS_OK
+               : scan_refuse(
+                     &msh->scan,
+                     "holds %zu of %zu partitions: must be whole (gmsh without -part_split)", count,
+                     partitions);
+}
+
+static enum percuss_status read_partitions(struct msh *msh)
+{
+    struct scan *scan = &msh->scan;
+    size_t partitions, ghosts, counts[4];
+    int number;
+    if (!scan_count(scan, "partitions", &partitions) || !scan_count(scan, "ghosts", &ghosts))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t i = 0; i < 2 * ghosts; i++)
+        if (!scan_integer(scan, "ghost", &number))
+            return PERCUSS_BAD_REQUEST;
+    for (int i = 0; i < 4; i++)
+        if (!scan_count(scan, "number of entities", &counts[i]))
+            return PERCUSS_BAD_REQUEST;
+    bool *present = calloc(partitions + 1, sizeof *present);
+    enum percuss_status status = present ? PERCUSS_OK : msh_out_of_memory(msh);
+    for (int dimension = 0; dimension < 4; dimension++)
+        for (size_t i = 0; i < counts[dimension] && status == PERCUSS_OK; i++)
+            status = read_partitioned(msh, dimension, present, partitions);
+    if (status == PERCUSS_OK)
+        status = check_partitions(msh, present, partitions, counts[3]);
+    free(present);
+    return status;
 }
 
 static enum percuss_status read_entities(struct msh *msh)
@@ -257,16 +350,28 @@ static enum percuss_status read_node_block(struct msh *msh)
     return PERCUSS_OK;
 }
 
-/* the first physical group of a volume, else the volume itself */
+/* the first physical group of a volume, else the volume of the geometry */
 static size_t find_part(struct msh *msh, int entity)
 {
     char name[MESH_NAME_SIZE];
     int tag;
-    if (msh_groups_of(&msh->groups, 3, entity, &tag, 1) == 1)
+    if (msh_groups_of(&msh->groups, 3, entity, &tag, 1) == 1) {
         msh_groups_name(&msh->groups, 3, tag, name);
-    else
-        snprintf(name, sizeof name, "volume %d", entity);
-    return builder_part(&msh->builder, name);
+        msh->grouped = true;
+        return builder_part(&msh->builder, name);
+    }
+    for (size_t i = 0; i < msh->groups.share_count; i++)
+        if (msh->groups.shares[i].entity == entity) {
+            entity = msh->groups.shares[i].parent;
+            break;
+        }
+    snprintf(name, sizeof name, "volume %d", entity);
+    size_t parts = msh->builder.part_count, part = builder_part(&msh->builder, name);
+    if (part == parts && part != SIZE_MAX) {
+        size_t length = strlen(msh->alone);
+        snprintf(msh->alone + length, sizeof msh->alone - length, "%s%s", length ? ", " : "", name);
+    }
+    return part;
 }
 
 /* adds the nodes of an element to the sets of its entity */
@@ -296,21 +401,43 @@ static enum percuss_status find_sets(struct msh *msh, int dimension, int entity,
     return PERCUSS_OK;
 }
 
-/* only solids of second order are taken */
-static enum percuss_status msh_check_type(const struct scan *scan, int type)
+/* refuses a block of elements by its first one; in a file that Gmsh made, no line is the user's */
+static enum percuss_status refuse_type(const struct msh *msh, const char *name, const char *allowed)
 {
+    struct fault ignored;
+    struct scan ahead = msh->scan;
+    size_t label = 0;
+    ahead.fault = &ignored;
+    scan_size(&ahead, "", &label);
+    if (msh->made)
+        return fault_set(msh->scan.fault, PERCUSS_BAD_REQUEST, "%s: element %zu: %s: must be %s",
+                         msh->file, label, name, allowed);
+    return scan_refuse(&msh->scan, "element %zu: %s: must be %s", label, name, allowed);
+}
+
+/* solids of second order are taken, linear ones to be raised */
+static enum percuss_status msh_check_type(const struct msh *msh, int type)
+{
+    char number[LINE_SIZE];
+    snprintf(number, sizeof number, "type %d", type);
     if (type <= 0 || (size_t)type >= sizeof TYPES / sizeof *TYPES)
-        return scan_refuse(
-            scan, "element type %d: must be one of second order (gmsh -order 2 makes it)", type);
-    if (TYPES[type].dimension < 3 || type == MSH_TET10 || type == MSH_HEX20 || type == MSH_HEX27)
+        return refuse_type(msh, number, "one of second order (gmsh -order 2 makes it)");
+    bool linear = type == MSH_TET4 || type == MSH_HEX8;
+    if (TYPES[type].dimension < 3 || type == MSH_TET10 || type == MSH_HEX20 || type == MSH_HEX27 ||
+        (linear && msh->builder.raise))
         return PERCUSS_OK;
-    if (type == MSH_TET4 || type == MSH_HEX8)
-        return scan_refuse(scan,
-                           "%s: must be of second order, as linear ones are too stiff (first "
-                           "frequency 4 to 15 %% high): gmsh -order 2 makes it",
-                           TYPES[type].name);
-    return scan_refuse(scan, "%s: must be 10-node tetrahedra, 20- or 27-node hexahedra",
-                       TYPES[type].name);
+    if (linear)
+        return refuse_type(msh, TYPES[type].name,
+                           "of second order, as linear ones are too stiff (first frequency 4 to 15 "
+                           "% high): gmsh -order 2 makes it, --raise takes straight edges");
+    return refuse_type(msh, TYPES[type].name, "10-node tetrahedra, 20- or 27-node hexahedra");
+}
+
+static enum element_type msh_element(int type)
+{
+    return type == MSH_TET10 || type == MSH_TET4 ? ELEMENT_TET10
+           : type == MSH_HEX27                   ? ELEMENT_HEX27
+                                                 : ELEMENT_HEX20;
 }
 
 static enum percuss_status read_elements_of(struct msh *msh, int type, int entity, size_t count)
@@ -322,19 +449,19 @@ static enum percuss_status read_elements_of(struct msh *msh, int type, int entit
     /* solids make parts; faces, edges and points make sets of nodes */
     if (solid && (part = find_part(msh, entity)) == SIZE_MAX)
         return msh_out_of_memory(msh);
+    msh->flat += solid ? 0 : count;
     if (!solid && find_sets(msh, TYPES[type].dimension, entity, sets, &set_count) != PERCUSS_OK)
         return PERCUSS_INTERNAL;
     /* each in Gmsh's order of nodes, which is the builder's */
     for (size_t i = 0; i < count; i++) {
         if (!scan_size(scan, "number of an element", &label))
             return PERCUSS_BAD_REQUEST;
-        for (size_t k = 0; k < node_count; k++)
-            if (!scan_size(scan, "node of an element", &nodes[k]))
+        for (size_t k = 0; k < ELEMENT_MOST_NODES; k++) {
+            nodes[k] = BUILDER_MIDDLE;
+            if (k < node_count && !scan_size(scan, "node of an element", &nodes[k]))
                 return PERCUSS_BAD_REQUEST;
-        enum element_type kind = type == MSH_TET10   ? ELEMENT_TET10
-                                 : type == MSH_HEX20 ? ELEMENT_HEX20
-                                                     : ELEMENT_HEX27;
-        if (solid ? !builder_add_element(&msh->builder, kind, label, part, nodes)
+        }
+        if (solid ? !builder_add_element(&msh->builder, msh_element(type), label, part, nodes)
                   : !add_to_sets(msh, sets, set_count, nodes, node_count))
             return msh_out_of_memory(msh);
     }
@@ -350,7 +477,7 @@ static enum percuss_status read_element_block(struct msh *msh)
         !scan_integer(scan, "element type", &type) ||
         !scan_count(scan, "elements of a block", &count))
         return PERCUSS_BAD_REQUEST;
-    enum percuss_status status = msh_check_type(scan, type);
+    enum percuss_status status = msh_check_type(msh, type);
     return status == PERCUSS_OK ? read_elements_of(msh, type, entity, count) : status;
 }
 
@@ -391,6 +518,8 @@ static enum percuss_status read_section(struct msh *msh, const char *name)
         return read_names(msh);
     if (strcmp(name, "$Entities") == 0)
         return read_entities(msh);
+    if (strcmp(name, "$PartitionedEntities") == 0)
+        return read_partitions(msh);
     if (strcmp(name, "$Nodes") == 0)
         return read_blocks(msh, read_node_block);
     if (strcmp(name, "$Elements") == 0)
@@ -415,13 +544,28 @@ static enum percuss_status read_sections(struct msh *msh)
         if (name[0] == '\0')
             continue;
         if (name[0] != '$' || (!begun && strcmp(name, "$MeshFormat") != 0))
-            return scan_refuse(&msh->scan, "must begin with $MeshFormat, and sections with $");
+            return scan_refuse(&msh->scan,
+                               "%.40s: a mesh of Gmsh must begin with $MeshFormat, and sections "
+                               "with $: is it another program's .msh?",
+                               name);
         begun = true;
         status = read_section(msh, name);
         if (status == PERCUSS_OK)
             status = end_section(&msh->scan, name);
     }
     return status;
+}
+
+/* what a mesh of a surface alone lacks */
+static enum percuss_status check_volume(const struct msh *msh)
+{
+    if (msh->builder.element_count > 0 || msh->flat == 0)
+        return PERCUSS_OK;
+    return fault_set(msh->scan.fault, PERCUSS_BAD_REQUEST,
+                     "%s: has %zu faces, lines and points and no solid: must be meshed in three "
+                     "dimensions (gmsh -3); where a physical group is defined, Gmsh saves groups "
+                     "alone: add a Physical Volume, or set Mesh.SaveAll=1",
+                     msh->file, msh->flat);
 }
 
 bool msh_is_readable(const char *path)
@@ -431,24 +575,34 @@ bool msh_is_readable(const char *path)
     FILE *stream = fopen(path, "rb");
     if (!stream)
         return true;
-    bool gmsh = fgets(line, sizeof line, stream) && strncmp(line, "$MeshFormat", 11) == 0 &&
+    bool begun = fgets(line, sizeof line, stream) != NULL;
+    bool old = begun && strncmp(line, "$NOD", 4) == 0;
+    bool gmsh = begun && strncmp(line, "$MeshFormat", 11) == 0 &&
                 fgets(line, sizeof line, stream) && sscanf(line, "%lf", &version) == 1;
     fclose(stream);
-    return !gmsh || (version >= 4.1 && version < 4.2);
+    return !old && (!gmsh || (version >= 4.1 && version < 4.2));
 }
 
-enum percuss_status msh_read(const char *path, const char *file, double unit,
+enum percuss_status msh_read(const struct msh_source *source, double unit, bool raise,
                              struct solid_mesh *mesh, struct fault *fault)
 {
-    struct msh msh = {0};
+    struct msh msh = {.file = source->file, .made = source->made};
+    char name[2 * LINE_SIZE];
     memset(mesh, 0, sizeof *mesh);
-    enum percuss_status status = scan_open(path, &msh.scan, fault);
+    msh.builder.raise = raise;
+    enum percuss_status status = scan_open(source->path, &msh.scan, fault);
     if (status != PERCUSS_OK)
         return status;
-    msh.scan.file = file;
+    snprintf(name, sizeof name, "%s%s", source->file, source->made ? ": Gmsh's mesh of it" : "");
+    msh.scan.file = name;
     status = read_sections(&msh);
     if (status == PERCUSS_OK)
-        status = builder_finish(&msh.builder, file, unit, mesh, fault);
+        status = check_volume(&msh);
+    if (status == PERCUSS_OK && msh.grouped && msh.alone[0] &&
+        !builder_note(&msh.builder, "in no physical group, and part of the body: %s", msh.alone))
+        status = msh_out_of_memory(&msh);
+    if (status == PERCUSS_OK)
+        status = builder_finish(&msh.builder, source->file, unit, mesh, fault);
     scan_close(&msh.scan);
     builder_free(&msh.builder);
     msh_groups_free(&msh.groups);

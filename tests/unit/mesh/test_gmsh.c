@@ -110,6 +110,26 @@ static void meshes_parts(void **state)
            18000.0 - 720.0 * M_PI, 7);
 }
 
+/* groups name; they do not choose what is a part of the body */
+static void takes_all_solids(void **state)
+{
+    (void)state;
+    need_gmsh();
+    struct body body;
+    write_part("Box(1) = {0,0,0, 30,20,10};\nPhysical Surface(\"foot\") = {-1};\n");
+    read_body(&body, 0.001, 0.01);
+    near_relative(body.findings.volume, 6e-6, 1e-9);
+    assert_string_equal(body.mesh.set[0].name, "foot");
+    free_body(&body);
+    write_part("Box(1) = {0,0,0, 30,20,10};\nBox(2) = {30,0,0, 30,20,10};\n"
+               "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
+               "Physical Volume(\"left\") = {1};\n");
+    read_body(&body, 0.001, 0.01);
+    near_relative(body.findings.volume, 12e-6, 1e-9);
+    assert_string_equal(body.mesh.notes[0], "in no physical group, and part of the body: volume 2");
+    free_body(&body);
+}
+
 /* client/examples/mesh: foot, wall and fillet less the holes; its fillet makes one patch of foot
  * and wall inside */
 static void meshes_the_example(void **state)
@@ -253,8 +273,11 @@ static void says_why_not(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_parts),       cmocka_unit_test(meshes_the_example),
-        cmocka_unit_test(reads_every_format), cmocka_unit_test(fits_the_side_of_a_cylinder),
+        cmocka_unit_test(meshes_parts),
+        cmocka_unit_test(meshes_the_example),
+        cmocka_unit_test(takes_all_solids),
+        cmocka_unit_test(reads_every_format),
+        cmocka_unit_test(fits_the_side_of_a_cylinder),
         cmocka_unit_test(says_why_not),
     };
     return cmocka_run_group_tests(tests, prepare, clean);
