@@ -801,10 +801,11 @@ static bool name_held(struct bdf *bdf, size_t first, size_t end)
         for (next = i; next < end && bdf->holds[next].node == bdf->holds[i].node; next++)
             directions |= bdf->holds[next].directions;
         if ((directions & TRANSLATIONS) != TRANSLATIONS)
-            return builder_note(&bdf->builder,
-                                "%s holds node %zu in some directions alone, which --fixed cannot: "
-                                "this set is not taken",
-                                name, bdf->holds[i].node);
+            return builder_remark(
+                &bdf->builder,
+                "%s holds node %zu in some directions alone, which --fixed cannot: "
+                "this set is not taken",
+                name, bdf->holds[i].node);
     }
     size_t set = builder_set(&bdf->builder, name);
     for (size_t i = first; i < end && set != SIZE_MAX; i++)
@@ -834,28 +835,28 @@ static enum percuss_status give_part_material(struct bdf *bdf, const struct bdf_
     char where[BDF_PATH_SIZE + 32], name[48];
     snprintf(where, sizeof where, "%s:%zu", material->file, material->line);
     snprintf(name, sizeof name, "MAT1 %zu", material->label);
-    struct file_material stated = {.file = where,
-                                   .name = name,
-                                   .young_field = "E",
-                                   .density_field = "RHO",
-                                   .young = material->young,
-                                   .poisson = material->poisson,
-                                   .density = material->density * bdf->mass_factor};
-    if (!material->has_density)
-        return builder_note(&bdf->builder, "%s: %s has no RHO: the material of %s must be given",
-                            where, name, part->name)
-                   ? PERCUSS_OK
-                   : bdf_out_of_memory(bdf);
-    part->has_material = true;
+    struct file_material stated = {
+        .file = where,
+        .name = name,
+        .young_field = "E",
+        .density_field = "RHO",
+        .young = material->young,
+        .poisson = material->poisson,
+        .density = material->has_density ? material->density * bdf->mass_factor : NAN};
+    part->has_material = material->has_density;
     enum percuss_status status = file_material_convert(&stated, unit, &part->material, bdf->fault);
+    if (status == PERCUSS_OK && !material->has_density &&
+        !builder_remark(&bdf->builder, "%s: %s has no RHO: the density of %s must be given", where,
+                        name, part->name))
+        return bdf_out_of_memory(bdf);
     /* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then
      */
     bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;
     if (status == PERCUSS_OK && imperial &&
-        !builder_note(&bdf->builder,
-                      "%s: %s is read in newtons: E %.4g Pa, RHO %.4g kg/m^3; of a deck in "
-                      "pounds-force give the material yourself",
-                      where, name, part->material.young, part->material.density))
+        !builder_remark(&bdf->builder,
+                        "%s: %s is read in newtons: E %.4g Pa, RHO %.4g kg/m^3; of a deck in "
+                        "pounds-force give the material yourself",
+                        where, name, part->material.young, part->material.density))
         return bdf_out_of_memory(bdf);
     return status;
 }
@@ -884,17 +885,17 @@ static enum percuss_status give_materials(struct bdf *bdf, double unit)
 }
 
 /* one note of the cards that are not read */
-static bool note_others(struct bdf *bdf)
+static bool remark_others(struct bdf *bdf)
 {
-    char names[MESH_NOTE_SIZE] = "";
+    char names[MESH_REMARK_SIZE] = "";
     size_t filled = 0, i = 0;
     for (; i < bdf->other_count && filled < sizeof names - 100; i++)
         filled += (size_t)snprintf(names + filled, sizeof names - filled, "%s%s (line %zu)",
                                    i ? ", " : "", bdf->others[i].name, bdf->others[i].line);
     if (bdf->other_count == 0)
         return true;
-    return builder_note(&bdf->builder, "cards that are not read, and no part of the body: %s%s",
-                        names, i < bdf->other_count ? " and more" : "");
+    return builder_remark(&bdf->builder, "cards that are not read, and no part of the body: %s%s",
+                          names, i < bdf->other_count ? " and more" : "");
 }
 
 /* a body of shells alone */
@@ -921,7 +922,7 @@ enum percuss_status bdf_read(const char *path, double unit, bool raise, struct s
         status = place_grids(&bdf);
     if (status == PERCUSS_OK)
         status = give_materials(&bdf, unit);
-    if (status == PERCUSS_OK && !(name_all_held(&bdf) && note_others(&bdf)))
+    if (status == PERCUSS_OK && !(name_all_held(&bdf) && remark_others(&bdf)))
         status = bdf_out_of_memory(&bdf);
     if (status == PERCUSS_OK)
         status = builder_finish(&bdf.builder, path, unit, mesh, fault);

@@ -93,13 +93,13 @@ size_t builder_set(struct builder *builder, const char *name)
     return builder->set_count++;
 }
 
-bool builder_note(struct builder *builder, const char *format, ...)
+bool builder_remark(struct builder *builder, const char *format, ...)
 {
-    if (!GROW(builder->notes, builder->note_count, builder->note_room))
+    if (!GROW(builder->remarks, builder->remark_count, builder->remark_room))
         return false;
     va_list args;
     va_start(args, format);
-    vsnprintf(builder->notes[builder->note_count++], MESH_NOTE_SIZE, format, args);
+    vsnprintf(builder->remarks[builder->remark_count++], MESH_REMARK_SIZE, format, args);
     va_end(args);
     return true;
 }
@@ -326,9 +326,10 @@ static enum percuss_status make_middles(struct builder *builder, const char *fil
         status = place_middles(builder, &edges, file, &index, fault);
     if (status == PERCUSS_OK &&
         !(add_middles_to_sets(builder, &edges) &&
-          builder_note(builder, "linear elements were raised to second order with straight edges: "
-                                "round surfaces are as flat between corners as in the file, their "
-                                "volume and curvature are those of the facets")))
+          builder_remark(builder,
+                         "linear elements were raised to second order with straight edges: "
+                         "round surfaces are as flat between corners as in the file, their "
+                         "volume and curvature are those of the facets")))
         status = builder_out_of_memory(file, fault);
     free(edges.list);
     free(index.labels);
@@ -495,20 +496,21 @@ static bool turn_elements(struct builder *builder, struct solid_mesh *mesh)
         else if (count++ == 0)
             first = mesh->element_labels[e];
     }
-    return count == 0 || builder_note(builder,
-                                      "%zu elements (element %zu first) had their nodes the wrong "
-                                      "way round, as in a mirrored mesh: they were turned over",
-                                      count, first);
+    return count == 0 ||
+           builder_remark(builder,
+                          "%zu elements (element %zu first) had their nodes the wrong "
+                          "way round, as in a mirrored mesh: they were turned over",
+                          count, first);
 }
 
-static bool place_notes(const struct builder *builder, struct solid_mesh *mesh)
+static bool place_remarks(const struct builder *builder, struct solid_mesh *mesh)
 {
-    mesh->notes = malloc((builder->note_count + 1) * sizeof *mesh->notes);
-    if (!mesh->notes)
+    mesh->remarks = malloc((builder->remark_count + 1) * sizeof *mesh->remarks);
+    if (!mesh->remarks)
         return false;
-    mesh->note_count = builder->note_count;
-    for (size_t i = 0; i < builder->note_count; i++)
-        memcpy(mesh->notes[i], builder->notes[i], sizeof mesh->notes[i]);
+    mesh->remark_count = builder->remark_count;
+    for (size_t i = 0; i < builder->remark_count; i++)
+        memcpy(mesh->remarks[i], builder->remarks[i], sizeof mesh->remarks[i]);
     return true;
 }
 
@@ -540,7 +542,7 @@ enum percuss_status builder_finish(struct builder *builder, const char *file, do
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
         status = builder_out_of_memory(file, fault);
-    if (status == PERCUSS_OK && !(turn_elements(builder, mesh) && place_notes(builder, mesh)))
+    if (status == PERCUSS_OK && !(turn_elements(builder, mesh) && place_remarks(builder, mesh)))
         status = builder_out_of_memory(file, fault);
     /* an error frees the unfinished mesh */
     free(index.labels);
@@ -559,6 +561,6 @@ void builder_free(struct builder *builder)
     for (size_t i = 0; i < builder->set_count; i++)
         free(builder->sets[i].labels.values);
     free(builder->sets);
-    free(builder->notes);
+    free(builder->remarks);
     memset(builder, 0, sizeof *builder);
 }

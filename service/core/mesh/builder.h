@@ -46,8 +46,8 @@ struct builder {
     struct mesh_part *parts;
     size_t set_count, set_room;
     struct builder_set *sets;
-    size_t note_count, note_room;
-    char (*notes)[MESH_NOTE_SIZE];
+    size_t remark_count, remark_room;
+    char (*remarks)[MESH_REMARK_SIZE];
 };
 
 bool builder_append(struct builder_list *list, size_t value);
@@ -66,7 +66,7 @@ size_t builder_part(struct builder *builder, const char *name);
 size_t builder_set(struct builder *builder, const char *name);
 
 /* Tells the user what the body lacks or has besides; cut to fit. */
-bool builder_note(struct builder *builder, const char *format, ...)
+bool builder_remark(struct builder *builder, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Makes the mesh, lengths times `unit`; drops parts, sets and nodes that no element uses. `file`

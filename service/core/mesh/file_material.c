@@ -37,6 +37,8 @@ enum percuss_status file_material_convert(const struct file_material *from, doub
     to->yield = INFINITY;
     if (!(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
         return refuse_quantity(from, true, to->young, fault);
+    if (isnan(to->density))
+        return PERCUSS_OK;
     if (!(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
         return refuse_quantity(from, false, to->density, fault);
     if (material_check(to, &inner) != PERCUSS_OK)

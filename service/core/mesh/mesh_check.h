@@ -7,7 +7,7 @@
 
 #include "mesh/surface.h"
 
-enum { MESH_REMARKS = 6, MESH_REMARK_SIZE = 240 };
+enum { MESH_REMARKS = 6 };
 
 struct mesh_findings {
     double least_jacobian; /* over all elements: least det J over its mean within the element */

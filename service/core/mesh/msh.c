@@ -121,11 +121,11 @@ struct msh {
     struct scan scan;
     struct builder builder;
     struct msh_groups groups;
-    const char *file;               /* the user's */
-    bool made;                      /* Gmsh has made the mesh of it */
-    size_t flat;                    /* number of faces, lines and points */
-    bool grouped;                   /* a volume is in a physical group */
-    char alone[MESH_NOTE_SIZE / 2]; /* volumes that are in none */
+    const char *file;                 /* the user's */
+    bool made;                        /* Gmsh has made the mesh of it */
+    size_t flat;                      /* number of faces, lines and points */
+    bool grouped;                     /* a volume is in a physical group */
+    char alone[MESH_REMARK_SIZE / 2]; /* volumes that are in none */
 };
 
 static enum percuss_status msh_out_of_memory(const struct msh *msh)
@@ -599,7 +599,7 @@ enum percuss_status msh_read(const struct msh_source *source, double unit, bool 
     if (status == PERCUSS_OK)
         status = check_volume(&msh);
     if (status == PERCUSS_OK && msh.grouped && msh.alone[0] &&
-        !builder_note(&msh.builder, "in no physical group, and part of the body: %s", msh.alone))
+        !builder_remark(&msh.builder, "in no physical group, and part of the body: %s", msh.alone))
         status = msh_out_of_memory(&msh);
     if (status == PERCUSS_OK)
         status = builder_finish(&msh.builder, source->file, unit, mesh, fault);

@@ -13,7 +13,7 @@
 /* Nodes of an element in the order of Gmsh. */
 enum element_type { ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27 };
 
-enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64, MESH_NOTE_SIZE = 240 };
+enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64, MESH_REMARK_SIZE = 240 };
 
 /* Elements of one material: a physical volume, an element set. */
 struct mesh_part {
@@ -45,8 +45,8 @@ struct solid_mesh {
     struct mesh_part *part;
     size_t set_count;
     struct mesh_set *set;
-    size_t note_count;
-    char (*notes)[MESH_NOTE_SIZE]; /* what its reader left out or added, for the user */
+    size_t remark_count;
+    char (*remarks)[MESH_REMARK_SIZE]; /* what its reader left out or added, for the user */
 };
 
 void solid_mesh_free(struct solid_mesh *mesh);

@@ -227,8 +227,8 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
         .unit = options->unit, .size = options->size * options->unit, .raise = options->raise};
     struct solid_mesh *mesh = &reduction->mesh;
     enum percuss_status status = mesh_read(options->file, &how, mesh, fault);
-    for (size_t i = 0; i < mesh->note_count; i++)
-        fprintf(stderr, "percuss-reduce: warning: %s\n", mesh->notes[i]);
+    for (size_t i = 0; i < mesh->remark_count; i++)
+        fprintf(stderr, "percuss-reduce: warning: %s\n", mesh->remarks[i]);
     if (!status)
         status = materials_assign(options, mesh, fault);
     if (!status)

@@ -193,12 +193,12 @@ static void takes_the_material(void **state)
     struct solid_mesh mesh;
     read_deck(file_with(text, "7.8-9", ""), &mesh);
     assert_false(mesh.part[0].has_material);
-    assert_int_equal(mesh.note_count, 1);
-    assert_non_null(strstr(mesh.notes[0], "MAT1 5 has no RHO"));
+    assert_int_equal(mesh.remark_count, 1);
+    assert_non_null(strstr(mesh.remarks[0], "MAT1 5 has no RHO"));
     solid_mesh_free(&mesh);
     /* inches: their decks are in pounds, most of them */
     assert_int_equal(file_read(".bdf", file_with(text, "7.8-9", "2.59-4"), 0.0254, &mesh), 0);
-    assert_non_null(strstr(mesh.notes[0], "is read in newtons: E 3.255e+08 Pa"));
+    assert_non_null(strstr(mesh.remarks[0], "is read in newtons: E 3.255e+08 Pa"));
     solid_mesh_free(&mesh);
 }
 
@@ -228,10 +228,11 @@ static void names_what_holds(void **state)
     assert_int_equal(set_named(&mesh, "PSHELL 8")->count, 6);
     /* one direction alone is not what --fixed holds */
     assert_null(set_named(&mesh, "SPC 4"));
-    assert_int_equal(mesh.note_count, 2);
-    assert_string_equal(mesh.notes[0], "SPC 4 holds node 1 in some directions alone, which --fixed "
-                                       "cannot: this set is not taken");
-    assert_string_equal(mesh.notes[1],
+    assert_int_equal(mesh.remark_count, 2);
+    assert_string_equal(mesh.remarks[0],
+                        "SPC 4 holds node 1 in some directions alone, which --fixed "
+                        "cannot: this set is not taken");
+    assert_string_equal(mesh.remarks[1],
                         "cards that are not read, and no part of the body: RBE2 (line "
                         "22), CONM2 (line 24)");
     solid_mesh_free(&mesh);
@@ -261,7 +262,7 @@ static void raises_what_is_asked_for(void **state)
         near(bulk.smallest_det, 1.0, 1e-12);
         /* the face that is held has its mid nodes, but for the one of the file that is not named */
         assert_int_equal(mesh.set[0].count, i == 0 ? 6 : 5);
-        assert_non_null(strstr(mesh.notes[0], "linear elements were raised to second order"));
+        assert_non_null(strstr(mesh.remarks[0], "linear elements were raised to second order"));
         solid_mesh_free(&mesh);
     }
 }

@@ -126,7 +126,8 @@ static void takes_all_solids(void **state)
                "Physical Volume(\"left\") = {1};\n");
     read_body(&body, 0.001, 0.01);
     near_relative(body.findings.volume, 12e-6, 1e-9);
-    assert_string_equal(body.mesh.notes[0], "in no physical group, and part of the body: volume 2");
+    assert_string_equal(body.mesh.remarks[0],
+                        "in no physical group, and part of the body: volume 2");
     free_body(&body);
 }
 

@@ -144,7 +144,7 @@ static void has_its_names(const char *written)
     assert_int_equal(mesh.set_count, 1);
     assert_string_equal(mesh.set[0].name, "held here");
     assert_int_equal(mesh.set[0].count, 6);
-    assert_int_equal(mesh.note_count, 0);
+    assert_int_equal(mesh.remark_count, 0);
     solid_mesh_free(&mesh);
 }
 
@@ -178,7 +178,7 @@ static void names_by_groups(void **state)
         fail_msg("%s", file_fault.text);
     assert_int_equal(mesh.part_count, 2);
     assert_string_equal(mesh.part[1].name, "volume 4");
-    assert_string_equal(mesh.notes[0], "in no physical group, and part of the body: volume 4");
+    assert_string_equal(mesh.remarks[0], "in no physical group, and part of the body: volume 4");
     solid_mesh_free(&mesh);
     /* one partition's file is not the body */
     file_refused(".msh", file_with(partitioned, "10 3 4 1 2", "10 3 4 1 1"),
@@ -197,7 +197,7 @@ static void turns_over_and_raises(void **state)
     bulk_of(&mesh, &bulk);
     near_relative(bulk.volume, 8.0 / 6.0, 1e-13);
     near(bulk.smallest_det, 1.0, 1e-12);
-    assert_string_equal(mesh.notes[0],
+    assert_string_equal(mesh.remarks[0],
                         "1 elements (element 2 first) had their nodes the wrong way round, as in a "
                         "mirrored mesh: they were turned over");
     solid_mesh_free(&mesh);
