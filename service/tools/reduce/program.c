@@ -200,8 +200,11 @@ static void report_json(const struct reduction *reduction)
     put_number("force_imbalance", sites->imbalance);
     put_number("response_asymmetry", sites->asymmetry);
     printf(",\n  \"warnings\": [");
+    const struct solid_mesh *mesh = &reduction->mesh;
+    for (size_t i = 0; i < mesh->remark_count; i++)
+        put_text(i ? ", " : "", mesh->remarks[i]);
     for (size_t i = 0; i < reduction->findings.remark_count; i++)
-        put_text(i ? ", " : "", reduction->findings.remarks[i]);
+        put_text(i || mesh->remark_count ? ", " : "", reduction->findings.remarks[i]);
     putchar(']');
     put_number("memory", reduction->cost.memory);
     put_number("seconds", reduction->seconds);
