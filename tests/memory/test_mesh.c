@@ -31,6 +31,23 @@ static const char DECK[] = "*NODE, NSET=ALL\n1, 0,0,0\n2, 2,0,0\n3, 0,2,0\n4, 0,
                            "*MATERIAL, NAME=steel\n*ELASTIC\n210e9, .3\n*DENSITY\n7800\n"
                            "*SOLID SECTION, ELSET=body, MATERIAL=steel\n";
 
+/* linear, in a system of its own; its mid nodes are made */
+static const char BULK[] =
+    "GRID,1,7,0.,0.,0.\nGRID,2,7,2.,0.,0.\nGRID,3,7,0.,2.,0.\nGRID,4,7,0.,0.,2.\n"
+    "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCTETRA,1,3,1,2,3,4\n"
+    "SPC1,2,123,1,2,3\nCTRIA3,9,4,1,2,3\nRBE2,8,1,123,2,3\nCONM2,5,1,,2.\n"
+    "PSOLID,3,5\nMAT1,5,210.+9,,.3,7800.\n";
+
+static const char UNIVERSAL[] =
+    "-1\n2411\n1 1 1 1\n0 0 0\n2 1 1 1\n2 0 0\n3 1 1 1\n0 2 0\n4 1 1 1\n0 0 2\n-1\n"
+    "-1\n2412\n1 111 1 1 7 4\n1 2 3 4\n2 91 1 1 7 3\n1 2 3\n-1\n"
+    "-1\n2467\n1 0 0 0 0 0 0 2\nall\n8 1 0 0 8 2 0 0\n-1\n";
+
+static const char VTK[] = "# vtk DataFile Version 5.1\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                          "POINTS 4 float\n0 0 0 2 0 0 0 2 0 0 0 2\nCELLS 3 7\nOFFSETS int\n0 4 7\n"
+                          "CONNECTIVITY int\n0 1 2 3 0 1 2\nCELL_TYPES 2\n10 5\n"
+                          "CELL_DATA 2\nSCALARS g int 1\nLOOKUP_TABLE default\n1 2\n";
+
 static void write_file(const char *suffix, const char *text)
 {
     snprintf(path, sizeof path, "/tmp/percuss-memory-%d%s", (int)getpid(), suffix);
@@ -47,7 +64,7 @@ static bool reads_and_checks(void *context)
     struct surface surface = {0};
     struct mesh_findings findings;
     struct fault fault = {""};
-    struct mesh_options options = {.unit = 1.0};
+    struct mesh_options options = {.unit = 1.0, .raise = true};
     failing_begin();
     enum percuss_status status = mesh_read(path, &options, &mesh, &fault);
     if (!status)
@@ -100,6 +117,19 @@ static void decks(void **state)
     unlink(path);
 }
 
+static void other_files(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *suffix, *text;
+    } FILES[] = {{".bdf", BULK}, {".unv", UNIVERSAL}, {".vtk", VTK}};
+    for (size_t i = 0; i < COUNT(FILES); i++) {
+        write_file(FILES[i].suffix, FILES[i].text);
+        assert_true(fail_each(FILES[i].suffix, reads_and_checks, NULL, 200) > 20);
+        unlink(path);
+    }
+}
+
 static void matrices(void **state)
 {
     (void)state;
@@ -123,6 +153,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_gmsh),
         cmocka_unit_test(decks),
+        cmocka_unit_test(other_files),
         cmocka_unit_test(matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

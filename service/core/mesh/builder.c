@@ -275,6 +275,8 @@ static bool add_middles_to_sets(struct builder *builder, const struct edges *edg
     for (size_t s = 0; s < builder->set_count; s++) {
         struct builder_list *labels = &builder->sets[s].labels;
         size_t count = labels->count;
+        if (count == 0)
+            continue;
         qsort(labels->values, count, sizeof *labels->values, compare_sizes);
         for (size_t i = 0; i < edges->count; i++) {
             const struct edge *edge = &edges->list[i];
