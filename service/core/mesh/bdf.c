@@ -476,7 +476,7 @@ static enum percuss_status read_material(struct bdf *bdf, const struct bdf_card 
     return PERCUSS_OK;
 }
 
-static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, bool bulk);
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start);
 
 /* masses are RHO times WTMASS; other parameters do not change the body */
 static enum percuss_status read_parameter(struct bdf *bdf, const struct bdf_card *card)
@@ -562,7 +562,7 @@ static enum percuss_status include_file(struct bdf *bdf, struct bdf_lines *lines
     if (status != PERCUSS_OK)
         return status;
     bdf->depth++;
-    status = read_bdf_file(bdf, path, lines->bulk);
+    status = read_bdf_file(bdf, path, lines->bulk ? BDF_BULK : BDF_CONTROL);
     bdf->depth--;
     return status;
 }
@@ -576,7 +576,7 @@ static bool keep_path(struct bdf *bdf, const char *path)
     return bdf->paths[bdf->path_count] && ++bdf->path_count;
 }
 
-static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, bool bulk)
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start)
 {
     struct bdf_lines lines;
     struct bdf_card card = {0};
@@ -584,7 +584,7 @@ static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, bool
     if (!keep_path(bdf, path))
         return bdf_out_of_memory(bdf);
     bdf->path = bdf->paths[bdf->path_count - 1];
-    enum percuss_status status = bdf_open(&lines, path, bulk, bdf->fault);
+    enum percuss_status status = bdf_open(&lines, path, start, bdf->fault);
     if (status != PERCUSS_OK)
         return status;
     while (bdf_next(&lines, &card, &status)) {
@@ -915,7 +915,7 @@ enum percuss_status bdf_read(const char *path, double unit, bool raise, struct s
     struct bdf bdf = {.fault = fault, .file = path, .mass_factor = 1.0};
     bdf.builder.raise = raise;
     memset(mesh, 0, sizeof *mesh);
-    enum percuss_status status = read_bdf_file(&bdf, path, false);
+    enum percuss_status status = read_bdf_file(&bdf, path, BDF_WHOLE);
     if (status == PERCUSS_OK)
         status = check_solids(&bdf);
     if (status == PERCUSS_OK)

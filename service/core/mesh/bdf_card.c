@@ -82,17 +82,17 @@ static bool begins_bulk(const char *text)
     return strcmp(word, "BEGIN") == 0;
 }
 
-enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, bool bulk,
+enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, enum bdf_start start,
                              struct fault *fault)
 {
     memset(lines, 0, sizeof *lines);
     enum percuss_status status = scan_open(path, &lines->scan, fault);
     if (status != PERCUSS_OK)
         return status;
-    /* statements of control stand above BEGIN BULK; a mesh alone may lack both */
-    struct scan start = lines->scan;
-    lines->bulk = true;
-    while (!bulk && lines->bulk && hold_line(lines, &status)) {
+    /* a mesh alone has neither control nor BEGIN BULK */
+    struct scan front = lines->scan;
+    lines->bulk = start != BDF_CONTROL;
+    while (start == BDF_WHOLE && lines->bulk && hold_line(lines, &status)) {
         lines->bulk = !begins_bulk(lines->text);
         lines->held = false;
     }
@@ -100,7 +100,7 @@ enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, bool bul
         scan_close(&lines->scan);
         return status;
     }
-    lines->scan = start;
+    lines->scan = front;
     return PERCUSS_OK;
 }
 

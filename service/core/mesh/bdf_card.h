@@ -31,9 +31,12 @@ struct bdf_lines {
     char text[BDF_LINE_SIZE]; /* without comment, tabs as spaces */
 };
 
-/* Opens a file; `bulk`: an included one. PERCUSS_BAD_REQUEST: it cannot be read. Close lines->scan.
- */
-enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, bool bulk,
+/* How a file begins: a whole one with statements of control, unless it has no BEGIN BULK, an
+ * included one with what stands where it is named. */
+enum bdf_start { BDF_WHOLE, BDF_CONTROL, BDF_BULK };
+
+/* Opens a file. PERCUSS_BAD_REQUEST: it cannot be read. Close lines->scan. */
+enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, enum bdf_start start,
                              struct fault *fault);
 
 /* The next card of bulk data; false: the file or its data (ENDDATA) end, or, with a message in

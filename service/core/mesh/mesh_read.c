@@ -364,7 +364,9 @@ static enum percuss_status digest_follow_bdf(struct digest_walk *digest, const c
     struct bdf_lines lines;
     struct bdf_card card = {0};
     char included[BDF_PATH_SIZE];
-    enum percuss_status status = bdf_open(&lines, path, digest->depth > 0, fault), refused;
+    enum percuss_status status =
+                            bdf_open(&lines, path, digest->depth ? BDF_BULK : BDF_WHOLE, fault),
+                        refused;
     if (status)
         return status;
     while (!status && bdf_next(&lines, &card, &refused)) {

@@ -301,6 +301,13 @@ static void reads_included_files(void **state)
     fprintf(stream, "include %s\n", name);
     fclose(stream);
     file_refused(".bdf", main_deck, ".inc:1: INCLUDE: must not be more than 8 deep");
+    /* above BEGIN BULK its statements are no cards */
+    stream = fopen(name, "w");
+    fprintf(stream, "COMPILE SEMODES, NOLIST, NOREF, WHATEVER, MORE, AND, STILL, MORE, OF, IT\n");
+    fclose(stream);
+    snprintf(main_deck, sizeof main_deck, "INCLUDE '%s'\nBEGIN BULK\nGRID,1,,x\n", name);
+    file_refused(".bdf", main_deck, ".bdf:3: GRID: field 4: x: must be a number");
+    snprintf(main_deck, sizeof main_deck, "BEGIN BULK\nINCLUDE '%s'\n", name);
     unlink(name);
     file_refused(".bdf", main_deck, ".inc: No such file");
 }
