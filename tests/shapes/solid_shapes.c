@@ -82,11 +82,23 @@ static void tet_corners(size_t t, double corners[4][3])
     }
 }
 
+/* Into how many pieces a cell is cut. */
+static size_t pieces_of(enum element_type type)
+{
+    return type == ELEMENT_TET10 ? 24 : type == ELEMENT_WEDGE15 ? 2 : 1;
+}
+
 /* Place of a node of piece `t` in its cell. */
 static void place_in_cell(enum element_type type, size_t t, size_t node, double at[3])
 {
     double natural[3], corners[4][3];
     element_node(type, node, natural);
+    if (type == ELEMENT_WEDGE15) {
+        for (int k = 0; k < 2; k++)
+            at[k] = t ? 1.0 - natural[k] : natural[k];
+        at[2] = 0.5 + 0.5 * natural[2];
+        return;
+    }
     if (type != ELEMENT_TET10) {
         for (int k = 0; k < 3; k++)
             at[k] = 0.5 + 0.5 * natural[k];
@@ -103,7 +115,7 @@ static void place_in_cell(enum element_type type, size_t t, size_t node, double 
 static void add_cell(enum element_type type, const struct boxes *boxes, size_t box,
                      const size_t cell[3], struct solid_mesh *mesh)
 {
-    size_t pieces = type == ELEMENT_TET10 ? 24 : 1, nodes = element_node_count(type);
+    size_t pieces = pieces_of(type), nodes = element_node_count(type);
     for (size_t t = 0; t < pieces; t++) {
         for (size_t n = 0; n < nodes; n++) {
             double at[3];
@@ -131,7 +143,7 @@ static void name_end(struct solid_mesh *mesh, struct mesh_set *set, const char *
 static void build(enum element_type type, const struct boxes *boxes, double length,
                   const struct material *material, struct solid_mesh *mesh)
 {
-    size_t elements = 0, pieces = type == ELEMENT_TET10 ? 24 : 1;
+    size_t elements = 0, pieces = pieces_of(type);
     for (size_t b = 0; b < boxes->count; b++)
         elements += pieces * boxes->cells[b][0] * boxes->cells[b][1] * boxes->cells[b][2];
     size_t nodes = elements * element_node_count(type);

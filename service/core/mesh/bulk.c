@@ -8,12 +8,6 @@
 #include "mesh/element.h"
 #include "model/vector.h"
 
-/* Natural volume of a tetrahedron and of a hexahedron. */
-static double natural_volume(enum element_type type)
-{
-    return type == ELEMENT_TET10 ? 1.0 / 6.0 : 8.0;
-}
-
 /* det J at the nodes, where a curved element folds first. */
 static double smallest_at_nodes(enum element_type type, double (*points)[3])
 {
@@ -62,26 +56,25 @@ double bulk_element_det(const struct solid_mesh *mesh, size_t element, double *v
     element_points(mesh, element, points);
     double smallest = smallest_at_nodes(type, points);
     *volume = bulk_add_element(&rule, points, 0.0, &none, &smallest);
-    return smallest * natural_volume(type) / fabs(*volume);
+    return smallest * element_natural_volume(type) / fabs(*volume);
 }
 
 void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
 {
-    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
     *bulk = (struct bulk){.smallest_det = INFINITY, .smallest_volume = INFINITY};
     /* type by type, each with its rule */
-    for (int t = 0; t < 3; t++) {
+    for (enum element_type type = ELEMENT_TET10; type < ELEMENT_TYPES; type++) {
         struct element_rule rule;
-        element_rule_make(types[t], &rule);
+        element_rule_make(type, &rule);
         for (size_t e = 0; e < mesh->element_count; e++) {
-            if (mesh->types[e] != types[t])
+            if (mesh->types[e] != type)
                 continue;
             double points[ELEMENT_MOST_NODES][3];
             element_points(mesh, e, points);
-            double smallest = smallest_at_nodes(types[t], points);
+            double smallest = smallest_at_nodes(type, points);
             double density = mesh->part[mesh->parts[e]].material.density;
             double volume = bulk_add_element(&rule, points, density, bulk, &smallest);
-            smallest *= natural_volume(types[t]) / fabs(volume);
+            smallest *= element_natural_volume(type) / fabs(volume);
             if (smallest < bulk->smallest_det) {
                 bulk->smallest_det = smallest;
                 bulk->smallest_at = e;

@@ -18,9 +18,26 @@ static const signed char HEX_NODES[27][3] = {
     {1, 1, 0},    {-1, 1, 0},  {0, -1, 1},  {-1, 0, 1},  {1, 0, 1},   {0, 1, 1},  {0, 0, -1},
     {0, -1, 0},   {-1, 0, 0},  {1, 0, 0},   {0, 1, 0},   {0, 0, 1},   {0, 0, 0}};
 
+/* Corners at the ends of the edge of each mid node of a wedge, nodes 6 to 14. */
+static const unsigned char WEDGE_EDGES[9][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4},
+                                                {2, 5}, {3, 4}, {3, 5}, {4, 5}};
+
+static void wedge_node(size_t node, double at[3])
+{
+    static const double corners[6][3] = {{0.0, 0.0, -1.0}, {1.0, 0.0, -1.0}, {0.0, 1.0, -1.0},
+                                         {0.0, 0.0, 1.0},  {1.0, 0.0, 1.0},  {0.0, 1.0, 1.0}};
+    const unsigned char *edge = node < 6 ? NULL : WEDGE_EDGES[node - 6];
+    for (int i = 0; i < 3; i++)
+        at[i] = edge ? 0.5 * (corners[edge[0]][i] + corners[edge[1]][i]) : corners[node][i];
+}
+
 void element_node(enum element_type type, size_t node, double at[3])
 {
     static const double corners[4][3] = {{0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    if (type == ELEMENT_WEDGE15) {
+        wedge_node(node, at);
+        return;
+    }
     for (int i = 0; i < 3; i++) {
         if (type != ELEMENT_TET10)
             at[i] = HEX_NODES[node][i];
@@ -46,6 +63,33 @@ static void tet_shapes(const double at[3], double *shape, double (*gradient)[3])
         shape[4 + e] = 4.0 * part[i] * part[j];
         for (int k = 0; k < 3; k++)
             gradient[4 + e][k] = 4.0 * (part[i] * slopes[j][k] + part[j] * slopes[i][k]);
+    }
+}
+
+/* Serendipity (Zienkiewicz, Taylor, The Finite Element Method 1, 8.13), L being the volume
+ * coordinate of a corner or a mid node's corners i, j in the triangle: corners L(1 + zz_i)(2L - 2 +
+ * zz_i)/2, edges of the triangles 2 L_i L_j (1 + zz_i), edges between them L(1 - z^2). */
+static void wedge_shapes(const double at[3], double *shape, double (*gradient)[3])
+{
+    static const double slopes[3][2] = {{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}};
+    double part[3] = {1.0 - at[0] - at[1], at[0], at[1]}, z = at[2];
+    for (size_t n = 0; n < 6; n++) {
+        double sign = n < 3 ? -1.0 : 1.0, l = part[n % 3], up = 1.0 + sign * z;
+        shape[n] = 0.5 * l * up * (2.0 * l - 2.0 + sign * z);
+        for (int k = 0; k < 2; k++)
+            gradient[n][k] = 0.5 * up * (4.0 * l - 2.0 + sign * z) * slopes[n % 3][k];
+        gradient[n][2] = 0.5 * l * sign * (2.0 * l - 1.0 + 2.0 * sign * z);
+    }
+    for (size_t n = 6; n < 15; n++) {
+        int i = WEDGE_EDGES[n - 6][0], j = WEDGE_EDGES[n - 6][1];
+        bool between = j == i + 3;
+        double sign = i < 3 ? -1.0 : 1.0, a = part[i % 3], b = between ? 1.0 : part[j % 3];
+        double factor = between ? 1.0 - z * z : 2.0 * (1.0 + sign * z);
+        shape[n] = a * b * factor;
+        for (int k = 0; k < 2; k++)
+            gradient[n][k] =
+                factor * (between ? slopes[i % 3][k] : a * slopes[j % 3][k] + b * slopes[i % 3][k]);
+        gradient[n][2] = a * b * (between ? -2.0 * z : 2.0 * sign);
     }
 }
 
@@ -99,6 +143,8 @@ void element_shapes(enum element_type type, const double at[3], double *shape,
 {
     if (type == ELEMENT_TET10)
         tet_shapes(at, shape, gradient);
+    else if (type == ELEMENT_WEDGE15)
+        wedge_shapes(at, shape, gradient);
     else if (type == ELEMENT_HEX20)
         hex20_shapes(at, shape, gradient);
     else
@@ -136,6 +182,24 @@ static void tet_points(struct element_rule *rule)
     rule_add_point(rule, b, b, a, edge_weight);
 }
 
+/* Degree 5: seven points of a triangle (Radon 1948) times three of Gauss. */
+static void wedge_points(struct element_rule *rule)
+{
+    double root = sqrt(15.0), across[3] = {-sqrt(0.6), 0.0, sqrt(0.6)};
+    double near[2] = {(6.0 - root) / 21.0, (6.0 + root) / 21.0};
+    double weights[2] = {(155.0 - root) / 2400.0, (155.0 + root) / 2400.0};
+    static const double gauss[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    for (int k = 0; k < 3; k++) {
+        rule_add_point(rule, 1.0 / 3.0, 1.0 / 3.0, across[k], 9.0 / 80.0 * gauss[k]);
+        for (int g = 0; g < 2; g++) {
+            double a = near[g], b = 1.0 - 2.0 * a, weight = weights[g] * gauss[k];
+            rule_add_point(rule, a, a, across[k], weight);
+            rule_add_point(rule, b, a, across[k], weight);
+            rule_add_point(rule, a, b, across[k], weight);
+        }
+    }
+}
+
 static void hex_points(struct element_rule *rule)
 {
     double at[3] = {-sqrt(0.6), 0.0, sqrt(0.6)};
@@ -152,6 +216,8 @@ void element_rule_make(enum element_type type, struct element_rule *rule)
     rule->point_count = 0;
     if (type == ELEMENT_TET10)
         tet_points(rule);
+    else if (type == ELEMENT_WEDGE15)
+        wedge_points(rule);
     else
         hex_points(rule);
     for (size_t p = 0; p < rule->point_count; p++)

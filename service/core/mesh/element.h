@@ -3,7 +3,8 @@
 
 /* Finite elements of second order: shape functions and quadrature, nodes in Gmsh's order. Natural
  * coordinates run from 0 to 1 in a tetrahedron (corner 0 at the origin, corners 1 to 3 on the
- * axes), from -1 to 1 in a hexahedron. */
+ * axes), from -1 to 1 in a hexahedron; in a wedge x and y from 0 to 1 over its triangles, z from -1
+ * to 1. */
 #ifndef PERCUSS_MESH_ELEMENT_H
 #define PERCUSS_MESH_ELEMENT_H
 
@@ -12,8 +13,8 @@
 enum { ELEMENT_MOST_POINTS = 27 };
 
 /* Points of quadrature with the shape functions there: fourteen of degree 5 for a tetrahedron,
- * three a direction for a hexahedron. All weights are positive, so that no mass matrix is
- * indefinite. */
+ * three a direction for a hexahedron, seven times three for a wedge. All weights are positive, so
+ * that no mass matrix is indefinite. */
 struct element_rule {
     size_t node_count, point_count;
     double at[ELEMENT_MOST_POINTS][3];
@@ -31,7 +32,14 @@ struct element_point {
 
 static inline size_t element_node_count(enum element_type type)
 {
-    return type == ELEMENT_TET10 ? 10 : type == ELEMENT_HEX20 ? 20 : 27;
+    static const size_t COUNTS[ELEMENT_TYPES] = {10, 20, 27, 15};
+    return COUNTS[type];
+}
+
+/* In natural coordinates. */
+static inline double element_natural_volume(enum element_type type)
+{
+    return type == ELEMENT_TET10 ? 1.0 / 6.0 : type == ELEMENT_WEDGE15 ? 1.0 : 8.0;
 }
 
 /* Natural coordinates of a node. */

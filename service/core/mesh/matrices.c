@@ -367,9 +367,8 @@ enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices
     struct element_matrices *element = malloc(sizeof *element);
     if (element && adjacency_make(mesh, &adjacency) &&
         lay_out_rows(&adjacency, mesh->node_count, matrices)) {
-        add_type(mesh, ELEMENT_TET10, &adjacency, element, matrices);
-        add_type(mesh, ELEMENT_HEX20, &adjacency, element, matrices);
-        add_type(mesh, ELEMENT_HEX27, &adjacency, element, matrices);
+        for (enum element_type type = ELEMENT_TET10; type < ELEMENT_TYPES; type++)
+            add_type(mesh, type, &adjacency, element, matrices);
     } else {
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         matrices_free(matrices);

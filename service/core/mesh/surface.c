@@ -20,6 +20,12 @@ static const unsigned char HEX_FACES[6][9] = {
     {0, 3, 2, 1, 9, 13, 11, 8, 20},   {4, 5, 6, 7, 16, 18, 19, 17, 25},
     {0, 1, 5, 4, 8, 12, 16, 10, 21},  {1, 2, 6, 5, 11, 14, 18, 12, 23},
     {2, 3, 7, 6, 13, 15, 19, 14, 24}, {3, 0, 4, 7, 9, 10, 17, 15, 22}};
+/* the triangles have six nodes */
+static const unsigned char WEDGE_FACES[5][8] = {{0, 2, 1, 7, 9, 6},
+                                                {3, 4, 5, 12, 14, 13},
+                                                {0, 1, 4, 3, 6, 10, 12, 8},
+                                                {1, 2, 5, 4, 9, 11, 14, 10},
+                                                {2, 0, 3, 5, 7, 8, 13, 11}};
 
 /* one face of an element, sorted by its corners in ascending order */
 struct entry {
@@ -30,7 +36,17 @@ struct entry {
 
 static int face_number(enum element_type type)
 {
-    return type == ELEMENT_TET10 ? 4 : 6;
+    return type == ELEMENT_TET10 ? 4 : type == ELEMENT_WEDGE15 ? 5 : 6;
+}
+
+/* Its nodes among those of the element; *count: of them. */
+static const unsigned char *face_nodes(enum element_type type, int index, int *count)
+{
+    bool triangle = type == ELEMENT_TET10 || (type == ELEMENT_WEDGE15 && index < 2);
+    *count = triangle ? FACE_TRIANGLE6 : type == ELEMENT_HEX27 ? FACE_QUAD9 : FACE_QUAD8;
+    return type == ELEMENT_TET10     ? TET_FACES[index]
+           : type == ELEMENT_WEDGE15 ? WEDGE_FACES[index]
+                                     : HEX_FACES[index];
 }
 
 static void boundary_fill_face(const struct solid_mesh *mesh, size_t element, int index,
@@ -39,10 +55,9 @@ static void boundary_fill_face(const struct solid_mesh *mesh, size_t element, in
     enum element_type type = mesh->types[element];
     const size_t *nodes = mesh->nodes + mesh->first[element];
     memset(face, 0, sizeof *face);
-    face->count = type == ELEMENT_TET10   ? FACE_TRIANGLE6
-                  : type == ELEMENT_HEX20 ? FACE_QUAD8
-                                          : FACE_QUAD9;
-    const unsigned char *local = type == ELEMENT_TET10 ? TET_FACES[index] : HEX_FACES[index];
+    int count;
+    const unsigned char *local = face_nodes(type, index, &count);
+    face->count = count;
     for (int i = 0; i < face->count; i++)
         face->nodes[i] = nodes[local[i]];
     face->element = element;

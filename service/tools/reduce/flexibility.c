@@ -236,12 +236,10 @@ enum { VOLUME_SPLITS = 2 };
 static const int STRAIN_ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int STRAIN_COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
-enum { VOLUME_RULE_TYPES = ELEMENT_HEX27 + 1 };
-
 /* Owns its arrays; the mesh is borrowed. */
 struct volume_rule {
     const struct solid_mesh *mesh;
-    struct element_rule *rules; /* [VOLUME_RULE_TYPES] */
+    struct element_rule *rules; /* [ELEMENT_TYPES] */
     size_t *first;       /* [element_count + 1]: an element's points are points[first[e]] .. */
     double (*points)[4]; /* place, volume: m, m^3 */
     double (*centres)[3], *radii; /* [element_count], m */
@@ -279,14 +277,14 @@ static bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *
     /* arrays with one entry an element */
     size_t count = mesh->element_count, total = 0;
     *rule = (struct volume_rule){.mesh = mesh};
-    rule->rules = malloc(VOLUME_RULE_TYPES * sizeof *rule->rules);
+    rule->rules = malloc(ELEMENT_TYPES * sizeof *rule->rules);
     rule->first = malloc((count + 1) * sizeof *rule->first);
     rule->centres = malloc(count * sizeof *rule->centres);
     rule->radii = malloc(count * sizeof *rule->radii);
     if (!rule->rules || !rule->first || !rule->centres || !rule->radii)
         goto no_memory;
     /* where the points of each element begin */
-    for (int type = 0; type < VOLUME_RULE_TYPES; type++)
+    for (int type = 0; type < ELEMENT_TYPES; type++)
         element_rule_make((enum element_type)type, &rule->rules[type]);
     for (size_t e = 0; e < count; e++) {
         rule->first[e] = total;
@@ -308,7 +306,8 @@ no_memory:
 
 /* ---- integrals over the volume: mass ---- */
 
-/* A part of an element in natural coordinates: a tetrahedron by its corners, or a box by two. */
+/* A part of an element in natural coordinates: a tetrahedron by its corners, a box by two, a wedge
+ * by those of its lower triangle and the one above the first. */
 struct piece {
     double corners[4][3];
 };
@@ -323,7 +322,8 @@ struct mass_sum {
 };
 
 /* a point of the piece: of a tetrahedron with volume coordinates 1 - a - b - c, a, b, c; of a box
- * from the first corner to the second as the natural coordinates go from -1 to 1 */
+ * from the first corner to the second as the natural coordinates go from -1 to 1; of a wedge with
+ * both */
 static void point_in_piece(enum element_type type, const struct piece *piece, const double at[3],
                            double natural[3])
 {
@@ -333,14 +333,41 @@ static void point_in_piece(enum element_type type, const struct piece *piece, co
         if (type == ELEMENT_TET10)
             for (int i = 0; i < 3; i++)
                 natural[k] += at[i] * (piece->corners[i + 1][k] - from);
+        else if (type == ELEMENT_WEDGE15)
+            natural[k] += at[0] * (to - from) + at[1] * (piece->corners[2][k] - from) +
+                          0.5 * (1.0 + at[2]) * (piece->corners[3][k] - from);
         else
             natural[k] += 0.5 * (1.0 + at[k]) * (to - from);
     }
 }
 
+/* four of the triangle, below and above */
+static void split_wedge(const struct piece *piece, struct piece parts[8])
+{
+    static const int PARTS[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    const double(*corners)[3] = piece->corners;
+    double points[6][3];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            points[i][k] = corners[i][k];
+            points[3 + i][k] = 0.5 * (corners[i][k] + corners[(i + 1) % 3][k]);
+        }
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++) {
+            double half = 0.5 * (corners[3][k] - corners[0][k]), low = i < 4 ? 0.0 : half;
+            for (int c = 0; c < 3; c++)
+                parts[i].corners[c][k] = points[PARTS[i % 4][c]][k] + low;
+            parts[i].corners[3][k] = parts[i].corners[0][k] + half;
+        }
+}
+
 /* eight pieces of an eighth of the volume */
 static void split_piece(enum element_type type, const struct piece *piece, struct piece parts[8])
 {
+    if (type == ELEMENT_WEDGE15) {
+        split_wedge(piece, parts);
+        return;
+    }
     if (type != ELEMENT_TET10) {
         for (int i = 0; i < 8; i++)
             for (int k = 0; k < 3; k++) {
@@ -407,8 +434,11 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
 static void flexibility_volume_add_mass(const struct volume_rule *rule,
                                         const struct flexibility_place *place, double *momentum)
 {
-    static const struct piece WHOLE[2] = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                          {{{-1, -1, -1}, {1, 1, 1}}}};
+    static const struct piece WHOLE[ELEMENT_TYPES] = {
+        {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        {{{-1, -1, -1}, {1, 1, 1}}},
+        {{{-1, -1, -1}, {1, 1, 1}}},
+        {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}}}};
     const struct solid_mesh *mesh = rule->mesh;
     for (size_t e = 0; e < mesh->element_count; e++) {
         enum element_type type = mesh->types[e];
@@ -418,7 +448,7 @@ static void flexibility_volume_add_mass(const struct volume_rule *rule,
         sub3(rule->centres[e], place->load.point, offset);
         if (norm3(offset) < VOLUME_FAR * rule->radii[e]) {
             element_points(mesh, e, nodes);
-            add_piece(&sum, &WHOLE[type != ELEMENT_TET10], 1.0, 0);
+            add_piece(&sum, &WHOLE[type], 1.0, 0);
         } else {
             for (size_t i = rule->first[e]; i < rule->first[e + 1]; i++)
                 add_mass_point(&sum, rule->points[i], rule->points[i][3],

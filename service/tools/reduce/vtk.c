@@ -13,7 +13,9 @@
 static const unsigned char TET[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 static const unsigned char HEX[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                     19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
-static const unsigned char CELLS[] = {24, 25, 29};
+static const unsigned char WEDGE[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11};
+static const unsigned char *const ORDERS[] = {TET, HEX, HEX, WEDGE};
+static const unsigned char CELLS[] = {24, 25, 29, 26};
 
 /* Arrays follow each other after the header, each behind its size. */
 struct writer {
@@ -80,7 +82,7 @@ static void write_cells(const struct writer *writer, const struct solid_mesh *me
     size_t cells = mesh->element_count;
     write_size(writer, 8 * mesh->first[cells]);
     for (size_t e = 0; e < cells; e++) {
-        const unsigned char *order = mesh->types[e] == ELEMENT_TET10 ? TET : HEX;
+        const unsigned char *order = ORDERS[mesh->types[e]];
         for (size_t i = 0; i < mesh->first[e + 1] - mesh->first[e]; i++) {
             int64_t node = (int64_t)mesh->nodes[mesh->first[e] + order[i]];
             fwrite(&node, sizeof node, 1, writer->file);

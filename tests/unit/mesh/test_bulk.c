@@ -13,7 +13,8 @@ static void test_block(void **state)
 {
     (void)state;
     static const double size[3] = {0.1, 0.04, 0.02};
-    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27,
+                                              ELEMENT_WEDGE15};
     for (size_t t = 0; t < COUNT(types); t++) {
         struct solid_mesh mesh;
         struct bulk bulk;

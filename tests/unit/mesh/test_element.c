@@ -7,7 +7,8 @@
 #include "check.h"
 #include "mesh/element.h"
 
-static const enum element_type TYPES[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+static const enum element_type TYPES[] = {ELEMENT_TET10, ELEMENT_WEDGE15, ELEMENT_HEX20,
+                                          ELEMENT_HEX27};
 
 /* A shape function is one at its node and zero at the others. */
 static void test_shapes_at_nodes(void **state)
@@ -77,6 +78,13 @@ static double hex_integral(int a, int b, int c)
     return a % 2 || b % 2 || c % 2 ? 0.0 : 8.0 / ((a + 1.0) * (b + 1.0) * (c + 1.0));
 }
 
+/* a! b!/(a + b + 2)! over the triangle, times the line. */
+static double wedge_integral(int a, int b, int c)
+{
+    return tgamma(a + 1.0) * tgamma(b + 1.0) / tgamma(a + b + 3.0) *
+           (c % 2 ? 0.0 : 2.0 / (c + 1.0));
+}
+
 /* Every monomial up to degree 5 to rounding; positive weights. */
 static void test_quadrature_is_of_degree_five(void **state)
 {
@@ -94,7 +102,9 @@ static void test_quadrature_is_of_degree_five(void **state)
                                pow(rule.at[p][2], c);
                     }
                     near(sum,
-                         TYPES[t] == ELEMENT_TET10 ? tet_integral(a, b, c) : hex_integral(a, b, c),
+                         TYPES[t] == ELEMENT_TET10     ? tet_integral(a, b, c)
+                         : TYPES[t] == ELEMENT_WEDGE15 ? wedge_integral(a, b, c)
+                                                       : hex_integral(a, b, c),
                          2e-15);
                 }
     }

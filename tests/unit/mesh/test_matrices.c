@@ -66,6 +66,7 @@ static void test_energies(void **state)
     check_energies(ELEMENT_TET10);
     check_energies(ELEMENT_HEX20);
     check_energies(ELEMENT_HEX27);
+    check_energies(ELEMENT_WEDGE15);
 }
 
 /* Two materials: the mass is the sum of theirs. */

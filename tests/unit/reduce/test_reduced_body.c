@@ -17,7 +17,8 @@ static const struct material STEEL = {"steel", 210e9, 0.3, 7800.0, INFINITY, 0.0
 static void test_enclosed_volume(void **state)
 {
     (void)state;
-    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27,
+                                              ELEMENT_WEDGE15};
     for (size_t t = 0; t < COUNT(types); t++) {
         struct solid_mesh mesh;
         struct surface surface;

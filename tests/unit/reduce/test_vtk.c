@@ -89,7 +89,10 @@ static void test_cells(void **state)
     static const unsigned char hex[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7},
                                            {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {0, 7}, {1, 6},
                                            {0, 5}, {3, 6}, {0, 2}, {4, 6}, {0, 6}};
+    static const unsigned char wedge[][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
+                                             {5, 3}, {0, 3}, {1, 4}, {2, 5}};
     check_cells(ELEMENT_TET10, tet, 4, 6);
+    check_cells(ELEMENT_WEDGE15, wedge, 6, 9);
     check_cells(ELEMENT_HEX20, hex, 8, 12);
     check_cells(ELEMENT_HEX27, hex, 8, 19);
 }
