@@ -21,9 +21,9 @@ static const struct solid_mesh *tetrahedron(void)
     static struct solid_mesh mesh;
     struct fault fault = {""};
     if (!mesh.node_count)
-        FUZZ_REQUIRE(
-            !inp_read(fuzz_file(3, (const uint8_t *)DECK, sizeof DECK - 1), 1.0, &mesh, &fault),
-            "%s", fault.text);
+        FUZZ_REQUIRE(!inp_read(fuzz_file(3, (const uint8_t *)DECK, sizeof DECK - 1), 1.0, NULL,
+                               &mesh, &fault),
+                     "%s", fault.text);
     return &mesh;
 }
 

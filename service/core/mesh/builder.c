@@ -75,6 +75,8 @@ size_t builder_part(struct builder *builder, const char *name)
     struct mesh_part *part = &builder->parts[builder->part_count];
     memset(part, 0, sizeof *part);
     memcpy(part->name, cut, sizeof cut);
+    part->material.young = part->material.poisson = part->material.density = NAN;
+    part->material.yield = INFINITY;
     return builder->part_count++;
 }
 
@@ -85,11 +87,16 @@ size_t builder_set(struct builder *builder, const char *name)
     for (size_t i = 0; i < builder->set_count; i++)
         if (strcmp(builder->sets[i].name, cut) == 0)
             return i;
+    return builder_add_set(builder, cut);
+}
+
+size_t builder_add_set(struct builder *builder, const char *name)
+{
     if (!GROW(builder->sets, builder->set_count, builder->set_room))
         return SIZE_MAX;
     struct builder_set *set = &builder->sets[builder->set_count];
     memset(set, 0, sizeof *set);
-    memcpy(set->name, cut, sizeof cut);
+    copy_name(set->name, name);
     return builder->set_count++;
 }
 
@@ -138,6 +145,23 @@ static enum percuss_status builder_out_of_memory(const char *file, struct fault 
     return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
 }
 
+static bool same_point(const struct builder *builder, size_t one, size_t other)
+{
+    const double *a = builder->nodes[one].point, *b = builder->nodes[other].point;
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static enum percuss_status refuse_node(const struct builder *builder, size_t one, size_t other,
+                                       const char *file, struct fault *fault)
+{
+    const double *a = builder->nodes[one].point, *b = builder->nodes[other].point;
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "%s: node %zu: is there twice, at %g, %g, %g and at %g, %g, %g: each must have "
+        "a number of its own",
+        file, builder->nodes[one].label, a[0], a[1], a[2], b[0], b[1], b[2]);
+}
+
 static enum percuss_status make_index(const struct builder *builder, const char *file,
                                       struct index *index, struct fault *fault)
 {
@@ -152,12 +176,16 @@ static enum percuss_status make_index(const struct builder *builder, const char 
         index->numbers[i] = SIZE_MAX;
     }
     qsort(index->labels, index->count, sizeof *index->labels, compare_labels);
-    /* refuse a label of two nodes */
-    for (size_t i = 1; i < index->count; i++)
-        if (index->labels[i].label == index->labels[i - 1].label)
-            return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "%s: node %zu: is there twice: each must have a number of its own",
-                             file, index->labels[i].label);
+    /* a label has one place; the same once more is dropped */
+    size_t kept = 0;
+    for (size_t i = 0; i < index->count; i++) {
+        const struct label *last = kept ? &index->labels[kept - 1] : NULL;
+        if (!last || last->label != index->labels[i].label)
+            index->labels[kept++] = index->labels[i];
+        else if (!same_point(builder, last->index, index->labels[i].index))
+            return refuse_node(builder, last->index, index->labels[i].index, file, fault);
+    }
+    index->count = kept;
     return PERCUSS_OK;
 }
 
@@ -464,7 +492,10 @@ static bool place_sets(const struct builder *builder, const struct index *index,
             continue;
         }
         set->nodes = nodes;
+        set->kind = builder->sets[s].kind;
         memcpy(set->name, builder->sets[s].name, sizeof set->name);
+        memcpy(set->scope, builder->sets[s].scope, sizeof set->scope);
+        memcpy(set->instance, builder->sets[s].instance, sizeof set->instance);
         mesh->set_count++;
     }
     return true;
@@ -531,10 +562,11 @@ enum percuss_status builder_finish(struct builder *builder, const char *file, do
     mesh->unit = unit;
     enum percuss_status status = PERCUSS_OK;
     if (builder->element_count == 0)
-        status = fault_set(fault, PERCUSS_BAD_REQUEST,
-                           "%s: no solid elements: must have 10-node tetrahedra, 20- or 27-node "
-                           "hexahedra (does the file hold the surface only?)",
-                           file);
+        status =
+            fault_set(fault, PERCUSS_BAD_REQUEST,
+                      "%s: no solid elements: must have 10-node tetrahedra, 15-node "
+                      "wedges, 20- or 27-node hexahedra (does the file hold the surface only?)",
+                      file);
     /* each step needs the one before; elements number the nodes that they use */
     if (status == PERCUSS_OK)
         status = make_middles(builder, file, fault);

@@ -27,7 +27,8 @@ struct builder_element {
 };
 
 struct builder_set {
-    char name[MESH_NAME_SIZE];
+    char name[MESH_NAME_SIZE], scope[MESH_NAME_SIZE], instance[MESH_NAME_SIZE];
+    const char *kind;           /* as in struct mesh_set */
     struct builder_list labels; /* of nodes */
 };
 
@@ -69,9 +70,12 @@ size_t builder_set(struct builder *builder, const char *name);
 bool builder_remark(struct builder *builder, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Makes the mesh, lengths times `unit`; drops parts, sets and nodes that no element uses. `file`
- * begins messages. PERCUSS_BAD_REQUEST: no elements, duplicate or missing labels, coordinates that
- * are not finite. */
+/* A further set, whatever the names of others. */
+size_t builder_add_set(struct builder *builder, const char *name);
+
+/* Makes the mesh, lengths times `unit`; drops parts, sets and nodes that no element uses; takes a
+ * node that is there again in the same place once. `file` begins messages. PERCUSS_BAD_REQUEST: no
+ * elements, duplicate or missing labels, coordinates that are not finite. */
 enum percuss_status builder_finish(struct builder *builder, const char *file, double unit,
                                    struct solid_mesh *mesh, struct fault *fault);
 

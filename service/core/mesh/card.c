@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { CARD_NUMBER_SIZE = 128 };
+
 static char *card_trim(char *text)
 {
     while (isspace((unsigned char)*text))
@@ -42,28 +44,62 @@ bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status
     return filled > 0;
 }
 
-static void copy_capitals(char to[CARD_TEXT_SIZE], const char *from)
+/* Removes white space outside quotes, then the quotes. */
+void card_name(char *text)
 {
-    size_t i = 0;
-    for (; from[i] && i < CARD_TEXT_SIZE - 1; i++)
-        to[i] = (char)toupper((unsigned char)from[i]);
-    to[i] = '\0';
+    bool quoted = false;
+    char *to = text;
+    for (const char *from = text; *from; from++) {
+        if (*from == '"')
+            quoted = !quoted;
+        else if (quoted || !isspace((unsigned char)*from))
+            *to++ = *from;
+    }
+    *to = '\0';
 }
 
-void card_parse(char *line, struct card *card)
+static void card_capitals(char *text)
+{
+    card_name(text);
+    for (; *text; text++)
+        *text = (char)toupper((unsigned char)*text);
+}
+
+/* The name of a file keeps its blanks. */
+static void unquote_path(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (*from != '"')
+            *to++ = *from;
+    *to = '\0';
+}
+
+bool card_parse(char *line, struct card *card)
 {
     char *cursor = line + 1, *name = card_field(&cursor), *field;
     memset(card, 0, sizeof *card);
-    copy_capitals(card->name, name ? name : "");
-    while ((field = card_field(&cursor)) && card->parameter_count < CARD_MOST_PARAMETERS) {
+    snprintf(card->name, sizeof card->name, "%s", name ? name : "");
+    card_capitals(card->name);
+    while ((field = card_field(&cursor))) {
+        if (*field == '\0')
+            continue;
+        if (card->parameter_count == CARD_MOST_PARAMETERS)
+            return false;
+        struct card_parameter *parameter = &card->parameters[card->parameter_count++];
         char *equals = strchr(field, '=');
         if (equals)
             *equals = '\0';
-        int i = card->parameter_count++;
-        copy_capitals(card->parameters[i].key, card_trim(field));
-        snprintf(card->parameters[i].value, CARD_TEXT_SIZE, "%s",
+        snprintf(parameter->key, sizeof parameter->key, "%s", field);
+        card_capitals(parameter->key);
+        snprintf(parameter->value, sizeof parameter->value, "%s",
                  equals ? card_trim(equals + 1) : "");
+        if (strcmp(parameter->key, "INPUT") == 0)
+            unquote_path(parameter->value);
+        else
+            card_name(parameter->value);
     }
+    return true;
 }
 
 const char *card_value(const struct card *card, const char *key)
@@ -78,10 +114,12 @@ char *card_field(char **cursor)
 {
     if (!*cursor)
         return NULL;
-    char *field = *cursor, *comma = strchr(field, ',');
-    if (comma)
-        *comma = '\0';
-    *cursor = comma ? comma + 1 : NULL;
+    char *field = *cursor, *comma = field;
+    bool quoted = false;
+    for (; *comma && (quoted || *comma != ','); comma++)
+        quoted ^= *comma == '"';
+    *cursor = *comma ? comma + 1 : NULL;
+    *comma = '\0';
     field = card_trim(field);
     /* a comma at the end of a line begins no field */
     return *field == '\0' && !*cursor ? NULL : field;
@@ -100,11 +138,19 @@ bool card_label(const struct scan *scan, const char *subject, const char *field,
     return false;
 }
 
+/* Fortran's exponents are D as well. */
 bool card_real(const struct scan *scan, const char *subject, const char *field, double *value)
 {
-    char *end;
-    *value = field ? strtod(field, &end) : 0.0;
-    if (field && end != field && *end == '\0')
+    char copy[CARD_NUMBER_SIZE], *end = copy;
+    *value = 0.0;
+    size_t length = field ? strlen(field) : 0;
+    bool plain = length > 0 && length < sizeof copy && strspn(field, "0123456789+-.eEdD") == length;
+    if (plain) {
+        for (size_t i = 0; i <= length; i++)
+            copy[i] = (char)(field[i] == 'd' || field[i] == 'D' ? 'e' : field[i]);
+        *value = strtod(copy, &end);
+    }
+    if (plain && end != copy && *end == '\0')
         return true;
     scan_refuse(scan, "%s: %.40s: must be a number", subject, field ? field : "nothing");
     return false;

@@ -3,388 +3,19 @@
 
 #include "mesh/inp.h"
 
+#include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
-#include "mesh/builder.h"
 #include "mesh/card.h"
-#include "mesh/element.h"
-#include "mesh/grow.h"
-
-/* ---- deck: its statements beyond nodes and elements (sets of elements, materials, sections,
- * surfaces), and how parts and sets of nodes follow from them ---- */
-
-struct deck_set {
-    char name[MESH_NAME_SIZE];
-    struct builder_list labels; /* of elements */
-};
-
-/* In units of N, s and the file's length. */
-struct deck_material {
-    char name[MESH_NAME_SIZE];
-    bool elastic, dense;
-    double young, poisson, density;
-    size_t stress_count; /* of *PLASTIC: its first two rows */
-    double stress[2], strain[2];
-};
-
-struct deck_section {
-    size_t set, material;
-};
-
-/* An element that is no solid: a shell, a line; it names nodes only. */
-struct deck_other {
-    size_t label, first, count; /* nodes are others_nodes[first] .. */
-};
-
-/* Faces of elements (by label, or of a set of them) that belong to a surface. */
-struct deck_faces {
-    size_t surface; /* set of nodes */
-    size_t label;   /* of an element, where set is SIZE_MAX */
-    size_t set;
-    int face; /* 1 to 6 */
-};
-
-/* Zero it before use. Functions that add return false or SIZE_MAX when out of memory. */
-struct deck {
-    struct builder builder;
-    size_t set_count, set_room;
-    struct deck_set *sets;
-    size_t material_count, material_room;
-    struct deck_material *materials;
-    size_t section_count, section_room;
-    struct deck_section *sections;
-    size_t other_count, other_room;
-    struct deck_other *others;
-    struct builder_list others_nodes;
-    size_t face_count, face_room;
-    struct deck_faces *faces;
-};
-
-/* no solid is softer, stiffer, lighter or heavier: values outside are in other units */
-static const double LEAST_YOUNG = 1e4, MOST_YOUNG = 5e12, LEAST_DENSITY = 5.0, MOST_DENSITY = 3e4;
-
-/* nodes of the faces S1 to S4, S1 to S6 in the order of Gmsh */
-static const unsigned char TET_FACES[4][6] = {
-    {0, 1, 2, 4, 5, 6}, {0, 3, 1, 7, 9, 4}, {1, 3, 2, 9, 8, 5}, {2, 3, 0, 8, 7, 6}};
-static const unsigned char HEX_FACES[6][8] = {
-    {0, 1, 2, 3, 8, 11, 13, 9},   {4, 7, 6, 5, 17, 19, 18, 16}, {0, 4, 5, 1, 10, 16, 12, 8},
-    {1, 5, 6, 2, 12, 18, 14, 11}, {2, 6, 7, 3, 14, 19, 15, 13}, {3, 7, 4, 0, 15, 17, 10, 9}};
-
-/* an element by its label: a solid, or another one */
-struct place {
-    size_t label, index;
-    bool solid;
-};
-
-struct places {
-    size_t count;
-    struct place *places; /* ascending */
-};
-
-/* Sets and materials are found in any case of their letters; SIZE_MAX: there is none. */
-static size_t deck_find_element_set(const struct deck *deck, const char *name)
-{
-    for (size_t i = 0; i < deck->set_count; i++)
-        if (strcasecmp(deck->sets[i].name, name) == 0)
-            return i;
-    return SIZE_MAX;
-}
-
-static size_t deck_find_node_set(const struct deck *deck, const char *name)
-{
-    for (size_t i = 0; i < deck->builder.set_count; i++)
-        if (strcasecmp(deck->builder.sets[i].name, name) == 0)
-            return i;
-    return SIZE_MAX;
-}
-
-/* Found, or made if there is none; SIZE_MAX: out of memory. */
-static size_t deck_element_set(struct deck *deck, const char *name)
-{
-    size_t found = deck_find_element_set(deck, name);
-    if (found != SIZE_MAX || !GROW(deck->sets, deck->set_count, deck->set_room))
-        return found;
-    struct deck_set *set = &deck->sets[deck->set_count];
-    memset(set, 0, sizeof *set);
-    snprintf(set->name, sizeof set->name, "%s", name);
-    return deck->set_count++;
-}
-
-static size_t deck_node_set(struct deck *deck, const char *name)
-{
-    size_t found = deck_find_node_set(deck, name);
-    return found != SIZE_MAX ? found : builder_set(&deck->builder, name);
-}
-
-static size_t deck_material(struct deck *deck, const char *name)
-{
-    for (size_t i = 0; i < deck->material_count; i++)
-        if (strcasecmp(deck->materials[i].name, name) == 0)
-            return i;
-    if (!GROW(deck->materials, deck->material_count, deck->material_room))
-        return SIZE_MAX;
-    struct deck_material *material = &deck->materials[deck->material_count];
-    memset(material, 0, sizeof *material);
-    snprintf(material->name, sizeof material->name, "%s", name);
-    return deck->material_count++;
-}
-
-static bool deck_add_section(struct deck *deck, size_t set, size_t material)
-{
-    if (!GROW(deck->sections, deck->section_count, deck->section_room))
-        return false;
-    deck->sections[deck->section_count++] = (struct deck_section){set, material};
-    return true;
-}
-
-static bool deck_add_other(struct deck *deck, size_t label, const size_t *nodes, size_t count)
-{
-    size_t first = deck->others_nodes.count;
-    if (!GROW(deck->others, deck->other_count, deck->other_room))
-        return false;
-    for (size_t i = 0; i < count; i++)
-        if (!builder_append(&deck->others_nodes, nodes[i]))
-            return false;
-    deck->others[deck->other_count++] = (struct deck_other){label, first, count};
-    return true;
-}
-
-static bool deck_add_faces(struct deck *deck, const struct deck_faces *faces)
-{
-    if (!GROW(deck->faces, deck->face_count, deck->face_room))
-        return false;
-    deck->faces[deck->face_count++] = *faces;
-    return true;
-}
-
-static int deck_compare_labels(const void *left, const void *right)
-{
-    const struct place *a = left, *b = right;
-    return a->label < b->label ? -1 : a->label > b->label;
-}
-
-static const struct place *deck_find_element(const struct places *places, size_t label)
-{
-    struct place key = {.label = label};
-    return bsearch(&key, places->places, places->count, sizeof key, deck_compare_labels);
-}
-
-static bool deck_index_elements(const struct deck *deck, struct places *places)
-{
-    size_t solids = deck->builder.element_count;
-    places->count = solids + deck->other_count;
-    places->places = malloc((places->count + 1) * sizeof *places->places);
-    if (!places->places)
-        return false;
-    for (size_t i = 0; i < solids; i++)
-        places->places[i] = (struct place){deck->builder.elements[i].label, i, true};
-    for (size_t i = 0; i < deck->other_count; i++)
-        places->places[solids + i] = (struct place){deck->others[i].label, i, false};
-    qsort(places->places, places->count, sizeof *places->places, deck_compare_labels);
-    return true;
-}
-
-static enum percuss_status deck_check_labels(const struct places *places, const char *file,
-                                             struct fault *fault)
-{
-    for (size_t i = 1; i < places->count; i++)
-        if (places->places[i].label == places->places[i - 1].label)
-            return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "%s: element %zu: is there twice: each must have a number of its own",
-                             file, places->places[i].label);
-    return PERCUSS_OK;
-}
-
-static enum percuss_status refuse_material(const struct deck_material *material, const char *file,
-                                           const char *card, double stated, double value,
-                                           struct fault *fault)
-{
-    bool young = card[1] == 'E';
-    return fault_set(
-        fault, PERCUSS_BAD_REQUEST,
-        "%s: material %s: %s: %g is %g %s in units of N, s and the file's length: must "
-        "be %g to %g; is the unit of length right?",
-        file, material->name, card, stated, value, young ? "Pa" : "kg/m^3",
-        young ? LEAST_YOUNG : LEAST_DENSITY, young ? MOST_YOUNG : MOST_DENSITY);
-}
-
-/* stresses in N per square of the length; the unit of mass is 1 N s^2/unit of length. The tangent,
- * the slope of stress over total strain, from the first two rows of *PLASTIC with H = d stress/d
- * plastic strain: E H/(E + H) */
-static enum percuss_status deck_convert_material(const struct deck_material *from, const char *file,
-                                                 double unit, struct material *to,
-                                                 struct fault *fault)
-{
-    /* in SI */
-    double stress = 1.0 / (unit * unit), density = stress * stress;
-    memset(to, 0, sizeof *to);
-    snprintf(to->name, sizeof to->name, "%.*s", (int)sizeof to->name - 1, from->name);
-    to->young = from->young * stress;
-    to->poisson = from->poisson;
-    to->density = from->density * density;
-    to->yield = from->stress_count ? from->stress[0] * stress : INFINITY;
-    /* hardening from the slope of plastic strain */
-    if (from->stress_count > 1 && from->strain[1] > from->strain[0]) {
-        double hardening =
-            (from->stress[1] - from->stress[0]) / (from->strain[1] - from->strain[0]) * stress;
-        to->tangent = hardening > 0.0 ? to->young * hardening / (to->young + hardening) : 0.0;
-    }
-    /* values outside these limits have a wrong unit; the message is in the deck's terms */
-    if (!(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
-        return refuse_material(from, file, "*ELASTIC", from->young, to->young, fault);
-    if (!(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
-        return refuse_material(from, file, "*DENSITY", from->density, to->density, fault);
-    /* limits of every material */
-    struct fault inner;
-    if (material_check(to, &inner) != PERCUSS_OK)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: material %s: %.400s", file, from->name,
-                         inner.text);
-    return PERCUSS_OK;
-}
-
-/* a section's elements become a part of its name; `taken` marks elements with a section */
-static enum percuss_status apply_section(struct deck *deck, const struct deck_section *section,
-                                         const struct places *places, bool *taken, const char *file,
-                                         double unit, struct fault *fault)
-{
-    const struct deck_set *set = &deck->sets[section->set];
-    const struct deck_material *material = &deck->materials[section->material];
-    size_t index = builder_part(&deck->builder, set->name);
-    if (index == SIZE_MAX)
-        return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
-    struct mesh_part *part = &deck->builder.parts[index];
-    /* a complete material; the command line must state others */
-    if (material->elastic && material->dense) {
-        part->has_material = true;
-        enum percuss_status status =
-            deck_convert_material(material, file, unit, &part->material, fault);
-        if (status != PERCUSS_OK)
-            return status;
-    }
-    /* its solid elements, in one part each */
-    for (size_t i = 0; i < set->labels.count; i++) {
-        const struct place *place = deck_find_element(places, set->labels.values[i]);
-        if (!place || !place->solid)
-            continue;
-        if (taken[place->index] && deck->builder.elements[place->index].part != index)
-            return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "%s: element %zu: is in the solid sections of %s and %s: must be in "
-                             "one",
-                             file, place->label,
-                             deck->builder.parts[deck->builder.elements[place->index].part].name,
-                             set->name);
-        taken[place->index] = true;
-        deck->builder.elements[place->index].part = index;
-    }
-    return PERCUSS_OK;
-}
-
-static enum percuss_status apply_sections(struct deck *deck, const struct places *places,
-                                          const char *file, double unit, struct fault *fault)
-{
-    bool *taken = calloc(deck->builder.element_count + 1, sizeof *taken);
-    if (!taken)
-        return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
-    enum percuss_status status = PERCUSS_OK;
-    for (size_t i = 0; i < deck->section_count && status == PERCUSS_OK; i++)
-        status = apply_section(deck, &deck->sections[i], places, taken, file, unit, fault);
-    free(taken);
-    return status;
-}
-
-/* sets of shells and lines name their nodes */
-static bool name_others(struct deck *deck, const struct places *places)
-{
-    for (size_t s = 0; s < deck->set_count; s++) {
-        const struct deck_set *set = &deck->sets[s];
-        size_t named = SIZE_MAX;
-        for (size_t i = 0; i < set->labels.count; i++) {
-            const struct place *place = deck_find_element(places, set->labels.values[i]);
-            if (!place || place->solid)
-                continue;
-            if (named == SIZE_MAX && (named = deck_node_set(deck, set->name)) == SIZE_MAX)
-                return false;
-            const struct deck_other *other = &deck->others[place->index];
-            for (size_t k = 0; k < other->count; k++)
-                if (!builder_append(&deck->builder.sets[named].labels,
-                                    deck->others_nodes.values[other->first + k]))
-                    return false;
-        }
-    }
-    return true;
-}
-
-static bool deck_add_face(struct deck *deck, const struct deck_faces *faces,
-                          const struct place *place)
-{
-    const struct builder_element *element = &deck->builder.elements[place->index];
-    bool tet = element->type == ELEMENT_TET10;
-    if (tet && faces->face > 4)
-        return true;
-    const unsigned char *local = tet ? TET_FACES[faces->face - 1] : HEX_FACES[faces->face - 1];
-    for (int k = 0; k < (tet ? 6 : 8); k++)
-        if (!builder_append(&deck->builder.sets[faces->surface].labels,
-                            deck->builder.connectivity.values[element->first + local[k]]))
-            return false;
-    return true;
-}
-
-/* surfaces name the nodes of their faces */
-static bool name_faces(struct deck *deck, const struct places *places)
-{
-    for (size_t f = 0; f < deck->face_count; f++) {
-        const struct deck_faces *faces = &deck->faces[f];
-        bool whole = faces->set != SIZE_MAX;
-        size_t count = whole ? deck->sets[faces->set].labels.count : 1;
-        for (size_t i = 0; i < count; i++) {
-            size_t label = whole ? deck->sets[faces->set].labels.values[i] : faces->label;
-            const struct place *place = deck_find_element(places, label);
-            if (place && place->solid && !deck_add_face(deck, faces, place))
-                return false;
-        }
-    }
-    return true;
-}
-
-/* The mesh with parts by section, materials in SI, and sets of nodes. PERCUSS_BAD_REQUEST: an
- * element in two sections, materials outside the limits. */
-static enum percuss_status deck_finish(struct deck *deck, const char *file, double unit,
-                                       struct solid_mesh *mesh, struct fault *fault)
-{
-    struct places places = {0};
-    memset(mesh, 0, sizeof *mesh);
-    enum percuss_status status =
-        deck_index_elements(deck, &places)
-            ? deck_check_labels(&places, file, fault)
-            : fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
-    if (status == PERCUSS_OK && !(name_others(deck, &places) && name_faces(deck, &places)))
-        status = fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
-    if (status == PERCUSS_OK)
-        status = apply_sections(deck, &places, file, unit, fault);
-    if (status == PERCUSS_OK)
-        status = builder_finish(&deck->builder, file, unit, mesh, fault);
-    free(places.places);
-    return status;
-}
-
-static void deck_free(struct deck *deck)
-{
-    builder_free(&deck->builder);
-    for (size_t i = 0; i < deck->set_count; i++)
-        free(deck->sets[i].labels.values);
-    free(deck->sets);
-    free(deck->materials);
-    free(deck->sections);
-    free(deck->others);
-    free(deck->others_nodes.values);
-    free(deck->faces);
-    memset(deck, 0, sizeof *deck);
-}
+#include "mesh/deck_body.h"
+#include "mesh/inp_keywords.h"
 
 /* ---- lines of data: the keyword before them sets their reader ---- */
 
@@ -396,54 +27,73 @@ struct inp {
     struct scan *scan;
     struct deck deck;
     inp_line_reader *read; /* reader of lines of data after the last keyword; NULL: skip them */
-    int depth, parts, instances;
-    bool assembly, instance; /* inside *ASSEMBLY, *INSTANCE */
-    bool begun, done;        /* after the first keyword; after *STEP */
-    size_t set, material, part;
-    bool generate, solid;
-    enum element_type type;
-    size_t label, nodes[ELEMENT_MOST_NODES], filled; /* the element under way */
+    const char *path;      /* of the deck itself */
+    size_t file;           /* deck.files: that of `scan` */
+    int depth;
+    bool begun, step;    /* after the first keyword; after *STEP */
+    size_t scope, outer; /* scopes: that of the statements; that of the assembly */
+    size_t set, material, instance;
+    bool generate;
+    double temperature; /* of the first row of a table */
+    int row;
+    struct deck_element element; /* under way */
+    size_t nodes[ELEMENT_MOST_NODES], filled;
 };
 
 /* limit of GENERATE: a file with that many labels would be huge */
 static const size_t MOST_GENERATED = 20000000;
-
-/* the deck's node of each node in Gmsh's order: Abaqus Elements Reference, 28.1.4 */
-static const unsigned char TET_ORDER[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-static const unsigned char HEX_ORDER[20] = {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
-                                            16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
 
 static enum percuss_status inp_out_of_memory(const struct inp *inp)
 {
     return fault_set(inp->scan->fault, PERCUSS_INTERNAL, "%s: out of memory", inp->scan->file);
 }
 
+static struct deck_place inp_place(const struct inp *inp)
+{
+    return (struct deck_place){inp->file, inp->scan->line};
+}
+
+/* Makes a name of a field; refuses what is too long for one. */
+static bool read_name(const struct inp *inp, char *field)
+{
+    card_name(field);
+    if (strlen(field) < MESH_NAME_SIZE)
+        return true;
+    scan_refuse(inp->scan, "%.80s: must have at most %d letters", field, MESH_NAME_SIZE - 1);
+    return false;
+}
+
+static bool is_number(const char *field)
+{
+    return isdigit((unsigned char)*field);
+}
+
 static enum percuss_status inp_read_node(struct inp *inp, char *line)
 {
-    size_t label;
+    struct deck_item item = {.kind = DECK_RANGE, .instance = DECK_NONE, .step = 1};
     double point[3] = {0.0, 0.0, 0.0};
-    if (!card_label(inp->scan, "*NODE", card_field(&line), &label))
+    if (!card_label(inp->scan, "*NODE", card_field(&line), &item.first))
         return PERCUSS_BAD_REQUEST;
     for (int k = 0; k < 3; k++) {
         char *field = card_field(&line);
         if (field && *field && !card_real(inp->scan, "*NODE", field, &point[k]))
             return PERCUSS_BAD_REQUEST;
     }
-    if (!builder_add_node(&inp->deck.builder, label, point) ||
-        (inp->set != SIZE_MAX && !builder_append(&inp->deck.builder.sets[inp->set].labels, label)))
+    item.last = item.first;
+    if (!deck_add_node(&inp->deck, inp->scope, item.first, point) ||
+        (inp->set != DECK_NONE && !deck_add_item(&inp->deck, inp->set, &item)))
         return inp_out_of_memory(inp);
     return PERCUSS_OK;
 }
 
-static enum percuss_status finish_solid(struct inp *inp)
+static enum percuss_status finish_element(struct inp *inp)
 {
-    size_t nodes[ELEMENT_MOST_NODES];
-    const unsigned char *order = inp->type == ELEMENT_TET10 ? TET_ORDER : HEX_ORDER;
-    for (size_t i = 0; i < element_node_count(inp->type); i++)
-        nodes[i] = inp->nodes[order[i]];
+    size_t label = inp->element.label;
+    struct deck_item item = {DECK_RANGE, 0, label, label, 1, 0, DECK_NONE, {0, 0}};
+    inp->element.count = inp->filled;
     inp->filled = 0;
-    return builder_add_element(&inp->deck.builder, inp->type, inp->label, inp->part, nodes) &&
-                   builder_append(&inp->deck.sets[inp->set].labels, inp->label)
+    return deck_add_element(&inp->deck, &inp->element, inp->nodes) &&
+                   deck_add_item(&inp->deck, inp->set, &item)
                ? PERCUSS_OK
                : inp_out_of_memory(inp);
 }
@@ -451,118 +101,198 @@ static enum percuss_status finish_solid(struct inp *inp)
 /* a solid's nodes may take several lines; another element takes one */
 static enum percuss_status inp_read_element(struct inp *inp, char *line)
 {
-    size_t most = inp->solid ? element_node_count(inp->type) : ELEMENT_MOST_NODES;
+    size_t wanted = deck_element_nodes(inp->element.kind);
+    size_t most = wanted ? wanted : ELEMENT_MOST_NODES;
     char *field;
-    if (inp->filled == 0 && !card_label(inp->scan, "*ELEMENT", card_field(&line), &inp->label))
-        return PERCUSS_BAD_REQUEST;
+    if (inp->filled == 0) {
+        if (!card_label(inp->scan, "*ELEMENT", card_field(&line), &inp->element.label))
+            return PERCUSS_BAD_REQUEST;
+        inp->element.place = inp_place(inp);
+    }
     while ((field = card_field(&line))) {
         if (inp->filled == most)
-            return scan_refuse(inp->scan, "*ELEMENT: %zu: must have %zu nodes", inp->label, most);
+            return scan_refuse(inp->scan, "*ELEMENT: %zu: must have %zu nodes", inp->element.label,
+                               most);
         if (!card_label(inp->scan, "*ELEMENT", field, &inp->nodes[inp->filled]))
             return PERCUSS_BAD_REQUEST;
         inp->filled++;
     }
-    if (inp->solid)
-        return inp->filled == most ? finish_solid(inp) : PERCUSS_OK;
-    size_t count = inp->filled;
-    inp->filled = 0;
-    return deck_add_other(&inp->deck, inp->label, inp->nodes, count) &&
-                   builder_append(&inp->deck.sets[inp->set].labels, inp->label)
-               ? PERCUSS_OK
-               : inp_out_of_memory(inp);
+    return inp->filled == most || !wanted ? finish_element(inp) : PERCUSS_OK;
 }
 
-/* first, last and step of the labels to generate */
-static enum percuss_status generate_labels(struct inp *inp, char *line, struct builder_list *list)
+/* first, last and step of the labels to generate; the step may lead down */
+static enum percuss_status generate_labels(struct inp *inp, char *line)
 {
-    size_t first, last, step = 1;
+    struct deck_item item = {.kind = DECK_RANGE, .instance = inp->instance, .step = 1};
     char *field;
-    if (!card_label(inp->scan, "GENERATE", card_field(&line), &first) ||
-        !card_label(inp->scan, "GENERATE", card_field(&line), &last))
+    if (!card_label(inp->scan, "GENERATE", card_field(&line), &item.first) ||
+        !card_label(inp->scan, "GENERATE", card_field(&line), &item.last))
         return PERCUSS_BAD_REQUEST;
-    if ((field = card_field(&line)) && *field && !card_label(inp->scan, "GENERATE", field, &step))
+    field = card_field(&line);
+    bool down = field && *field == '-';
+    if (field && *field && !card_label(inp->scan, "GENERATE", field + down, &item.step))
         return PERCUSS_BAD_REQUEST;
-    if (last < first || (last - first) / step > MOST_GENERATED)
-        return scan_refuse(inp->scan, "GENERATE: %zu to %zu: must be at most %zu numbers", first,
-                           last, MOST_GENERATED);
-    for (size_t label = first; label <= last; label += step)
-        if (!builder_append(list, label))
-            return inp_out_of_memory(inp);
+    if (down) {
+        size_t first = item.first;
+        if (item.last > first)
+            return scan_refuse(inp->scan, "GENERATE: %zu to %zu by -%zu: must lead down", first,
+                               item.last, item.step);
+        item.first = first - (first - item.last) / item.step * item.step;
+        item.last = first;
+    }
+    if (item.last < item.first || (item.last - item.first) / item.step > MOST_GENERATED)
+        return scan_refuse(inp->scan, "GENERATE: %zu to %zu: must be at most %zu numbers",
+                           item.first, item.last, MOST_GENERATED);
+    item.last -= (item.last - item.first) % item.step;
+    return deck_add_item(&inp->deck, inp->set, &item) ? PERCUSS_OK : inp_out_of_memory(inp);
+}
+
+static bool is_instance(const struct inp *inp, const char *name)
+{
+    for (size_t i = 0; i < inp->deck.scope_count; i++)
+        if (inp->deck.scopes[i].kind == DECK_INSTANCE && deck_same(inp->deck.scopes[i].name, name))
+            return true;
+    return false;
+}
+
+/* The label or the name of a field, which INSTANCE. may precede in an assembly; `labels` and
+ * `names`: what an item of them is. */
+static enum percuss_status read_item(struct inp *inp, char *field, struct deck_item *item,
+                                     enum deck_item_kind labels, enum deck_item_kind names)
+{
+    item->instance = inp->instance;
+    item->place = inp_place(inp);
+    bool quoted = *field == '"';
+    if (!read_name(inp, field))
+        return PERCUSS_BAD_REQUEST;
+    char *dot = inp->scope == inp->outer ? strchr(field, '.') : NULL;
+    if (dot) {
+        *dot = '\0';
+        if (is_instance(inp, field)) {
+            if ((item->instance = deck_name(&inp->deck, field)) == DECK_NONE)
+                return inp_out_of_memory(inp);
+            field = dot + 1;
+        } else {
+            *dot = '.';
+        }
+    }
+    item->kind = !quoted && is_number(field) ? labels : names;
+    item->step = 1;
+    if (item->kind == names)
+        return (item->name = deck_name(&inp->deck, field)) != DECK_NONE ? PERCUSS_OK
+                                                                        : inp_out_of_memory(inp);
+    if (!card_label(inp->scan, "set", field, &item->first))
+        return PERCUSS_BAD_REQUEST;
+    item->last = item->first;
     return PERCUSS_OK;
 }
 
-/* labels, and names of sets; adds the labels of those */
-static enum percuss_status read_set_labels(struct inp *inp, char *line, bool of_nodes)
+/* labels, and names of sets */
+static enum percuss_status inp_read_set(struct inp *inp, char *line)
 {
-    struct deck *deck = &inp->deck;
     char *field;
+    if (inp->generate)
+        return generate_labels(inp, line);
     while ((field = card_field(&line))) {
-        /* a label */
-        struct builder_list *list =
-            of_nodes ? &deck->builder.sets[inp->set].labels : &deck->sets[inp->set].labels;
-        if (*field >= '0' && *field <= '9') {
-            size_t label;
-            if (!card_label(inp->scan, "set", field, &label))
-                return PERCUSS_BAD_REQUEST;
-            if (!builder_append(list, label))
-                return inp_out_of_memory(inp);
+        struct deck_item item = {0};
+        if (*field == '\0')
             continue;
-        }
-        /* or the name of a set above; skip an unknown one in an assembly */
-        size_t other =
-            of_nodes ? deck_find_node_set(deck, field) : deck_find_element_set(deck, field);
-        if (other == SIZE_MAX && !inp->assembly)
-            return scan_refuse(inp->scan, "set: %.60s: must be the name of a set above", field);
-        if (other == SIZE_MAX || other == inp->set)
-            continue;
-        /* add its labels */
-        const struct builder_list *from =
-            of_nodes ? &deck->builder.sets[other].labels : &deck->sets[other].labels;
-        for (size_t i = 0; i < from->count; i++)
-            if (!builder_append(list, from->values[i]))
-                return inp_out_of_memory(inp);
+        enum percuss_status status = read_item(inp, field, &item, DECK_RANGE, DECK_SET);
+        if (status)
+            return status;
+        if (!deck_add_item(&inp->deck, inp->set, &item))
+            return inp_out_of_memory(inp);
     }
     return PERCUSS_OK;
 }
 
-static enum percuss_status inp_read_node_set(struct inp *inp, char *line)
+/* a surface of nodes: a node or a set, and an area that stands behind it */
+static enum percuss_status inp_read_node_surface(struct inp *inp, char *line)
 {
-    return inp->generate ? generate_labels(inp, line, &inp->deck.builder.sets[inp->set].labels)
-                         : read_set_labels(inp, line, true);
+    struct deck_item item = {0};
+    char *field = card_field(&line);
+    enum percuss_status status =
+        field ? read_item(inp, field, &item, DECK_RANGE, DECK_SET) : PERCUSS_OK;
+    if (status || !field)
+        return status;
+    return deck_add_item(&inp->deck, inp->set, &item) ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
-static enum percuss_status inp_read_element_set(struct inp *inp, char *line)
+/* S1 to S6, or a side of shells; 0: neither */
+static int face_of(const char *text)
 {
-    return inp->generate ? generate_labels(inp, line, &inp->deck.sets[inp->set].labels)
-                         : read_set_labels(inp, line, false);
+    if (strcasecmp(text, "SPOS") == 0 || strcasecmp(text, "SNEG") == 0 ||
+        strcasecmp(text, "S") == 0)
+        return DECK_WHOLE;
+    return (text[0] == 'S' || text[0] == 's') && text[1] >= '1' && text[1] <= '6' && !text[2]
+               ? text[1] - '0'
+               : 0;
 }
 
 /* an element or a set of elements, then S1 to S6 */
 static enum percuss_status inp_read_surface(struct inp *inp, char *line)
 {
-    struct deck_faces faces = {.surface = inp->set, .set = SIZE_MAX};
+    struct deck_item item = {0};
     char *whose = card_field(&line), *face = card_field(&line);
-    if (!whose || !face || (face[0] != 'S' && face[0] != 's') || face[1] < '1' || face[1] > '6' ||
-        face[2] != '\0')
+    if (whose && *whose && (!face || !*face))
+        return deck_tell(
+                   &inp->deck,
+                   "*SURFACE, NAME=%s: is the whole outside of %.60s: left out, as no list of "
+                   "faces",
+                   inp->deck.sets[inp->set].name, whose)
+                   ? PERCUSS_OK
+                   : inp_out_of_memory(inp);
+    if (!whose || !*whose || !(item.face = face_of(face)))
         return scan_refuse(inp->scan, "*SURFACE: must be: element or set, S1 to S6");
-    faces.face = face[1] - '0';
-    if (*whose >= '0' && *whose <= '9') {
-        if (!card_label(inp->scan, "*SURFACE", whose, &faces.label))
-            return PERCUSS_BAD_REQUEST;
-    } else if ((faces.set = deck_find_element_set(&inp->deck, whose)) == SIZE_MAX) {
-        return scan_refuse(inp->scan, "*SURFACE: %.60s: must be the name of a set above", whose);
-    }
-    return deck_add_faces(&inp->deck, &faces) ? PERCUSS_OK : inp_out_of_memory(inp);
+    enum percuss_status status = read_item(inp, whose, &item, DECK_FACES, DECK_SET_FACES);
+    if (status)
+        return status;
+    return deck_add_item(&inp->deck, inp->set, &item) ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
-/* the first row, at the lowest temperature */
+/* ---- properties of a material; a value that is none is refused if the body is of it ---- */
+
+/* Whether this row of a table is to be taken: those at its first temperature. */
+static bool is_first_temperature(struct inp *inp, const char *name, char *line)
+{
+    struct deck_material *material = &inp->deck.materials[inp->material];
+    char *field = card_field(&line), *end;
+    double temperature = field && *field ? strtod(field, &end) : 0.0;
+    if (inp->row++ == 0)
+        inp->temperature = temperature;
+    if (temperature == inp->temperature)
+        return true;
+    snprintf(material->told, sizeof material->told,
+             "*MATERIAL, NAME=%s: %s is a table over the temperature: its rows at %g are taken",
+             material->name, name, inp->temperature);
+    return false;
+}
+
+/* Two numbers of a row, or the first one of them alone; keeps the message of what are none. */
+static bool read_numbers(struct inp *inp, const char *name, char **line, int count, double *values)
+{
+    struct deck_material *material = &inp->deck.materials[inp->material];
+    struct fault inner = {""}, *fault = inp->scan->fault;
+    bool good = true;
+    inp->scan->fault = &inner;
+    for (int i = 0; i < count && good; i++)
+        good = card_real(inp->scan, name, card_field(line), &values[i]);
+    inp->scan->fault = fault;
+    if (!good && !material->refused[0])
+        snprintf(material->refused, sizeof material->refused, "%.*s",
+                 (int)sizeof material->refused - 1, inner.text);
+    return good;
+}
+
 static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
-    inp->read = NULL;
-    if (!card_real(inp->scan, "*ELASTIC", card_field(&line), &material->young) ||
-        !card_real(inp->scan, "*ELASTIC", card_field(&line), &material->poisson))
-        return PERCUSS_BAD_REQUEST;
+    double values[2];
+    if (!read_numbers(inp, "*ELASTIC", &line, 2, values) ||
+        !is_first_temperature(inp, "*ELASTIC", line) || inp->row > 1)
+        return PERCUSS_OK;
+    material->young = values[0];
+    material->poisson = values[1];
     material->elastic = true;
     return PERCUSS_OK;
 }
@@ -570,9 +300,11 @@ static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 static enum percuss_status inp_read_density(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
-    inp->read = NULL;
-    if (!card_real(inp->scan, "*DENSITY", card_field(&line), &material->density))
-        return PERCUSS_BAD_REQUEST;
+    double value;
+    if (!read_numbers(inp, "*DENSITY", &line, 1, &value) ||
+        !is_first_temperature(inp, "*DENSITY", line) || inp->row > 1)
+        return PERCUSS_OK;
+    material->density = value;
     material->dense = true;
     return PERCUSS_OK;
 }
@@ -581,21 +313,55 @@ static enum percuss_status inp_read_plastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
     size_t i = material->stress_count;
-    if (i == 2)
+    double values[2];
+    if (!read_numbers(inp, "*PLASTIC", &line, 2, values) ||
+        !is_first_temperature(inp, "*PLASTIC", line) || i == 2)
         return PERCUSS_OK;
-    if (!card_real(inp->scan, "*PLASTIC", card_field(&line), &material->stress[i]) ||
-        !card_real(inp->scan, "*PLASTIC", card_field(&line), &material->strain[i]))
-        return PERCUSS_BAD_REQUEST;
+    material->stress[i] = values[0];
+    material->strain[i] = values[1];
     material->stress_count++;
     return PERCUSS_OK;
 }
 
+/* where an instance stands: its shift, then two points of an axis and degrees */
 static enum percuss_status inp_read_instance(struct inp *inp, char *line)
 {
-    (void)line;
-    return scan_refuse(inp->scan,
-                       "*INSTANCE: is moved or turned: must be in its own frame; export the part "
-                       "itself");
+    struct deck_scope *scope = &inp->deck.scopes[inp->scope];
+    double *values = inp->row == 0 ? scope->shift : scope->axis[0], degrees = 0.0;
+    int count = inp->row == 0 ? 3 : 6;
+    if (inp->row++ > 1)
+        return scan_refuse(inp->scan, "*INSTANCE: must have at most two lines");
+    for (int k = 0; k < count; k++) {
+        char *field = card_field(&line);
+        if (field && *field && !card_real(inp->scan, "*INSTANCE", field, &values[k]))
+            return PERCUSS_BAD_REQUEST;
+    }
+    if (count == 3)
+        return PERCUSS_OK;
+    if (!card_real(inp->scan, "*INSTANCE", card_field(&line), &degrees))
+        return PERCUSS_BAD_REQUEST;
+    scope->degrees = degrees;
+    if (degrees != 0.0 && memcmp(scope->axis[0], scope->axis[1], sizeof scope->axis[0]) == 0)
+        return scan_refuse(inp->scan, "*INSTANCE: its axis must have two different points");
+    return PERCUSS_OK;
+}
+
+/* what a *BOUNDARY holds: its first field */
+static enum percuss_status inp_read_boundary(struct inp *inp, char *line)
+{
+    char *field = card_field(&line);
+    if (!field || !*field)
+        return PERCUSS_OK;
+    bool told;
+    if (is_number(field))
+        told = deck_tell(&inp->deck, "*BOUNDARY: single nodes are not held here: name them in a "
+                                     "*NSET for --fixed");
+    else {
+        card_name(field);
+        told = deck_tell(&inp->deck, "*BOUNDARY: %.60s is not held here: --fixed %.60s holds it",
+                         field, field);
+    }
+    return told ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
 /* ---- keywords ---- */
@@ -604,20 +370,32 @@ typedef enum percuss_status card_reader(struct inp *inp, const struct card *card
 
 static enum percuss_status read_deck(struct inp *inp, const char *path);
 
-/* a required parameter; NULL after a message */
+/* a parameter's name, or NULL: too long, or none where it is required, with a message */
 static const char *need(const struct inp *inp, const struct card *card, const char *key)
 {
     const char *value = card_value(card, key);
-    if (value && *value)
+    if (value && *value && strlen(value) < MESH_NAME_SIZE)
         return value;
-    scan_refuse(inp->scan, "*%.40s: %s=: must be there", card->name, key);
+    if (value && *value)
+        scan_refuse(inp->scan, "*%.40s: %s=%.80s: must have at most %d letters", card->name, key,
+                    value, MESH_NAME_SIZE - 1);
+    else
+        scan_refuse(inp->scan, "*%.40s: %s=: must be there", card->name, key);
     return NULL;
 }
 
-/* in an assembly, statements outside its instance belong to no body */
-static bool is_outside(const struct inp *inp)
+/* INSTANCE= of sets in an assembly */
+static enum percuss_status read_instance_name(struct inp *inp, const struct card *card)
 {
-    return inp->assembly && !inp->instance;
+    const char *name = card_value(card, "INSTANCE");
+    inp->instance = DECK_NONE;
+    if (!name)
+        return PERCUSS_OK;
+    if (!is_instance(inp, name))
+        return scan_refuse(inp->scan, "*%.40s: INSTANCE=%.60s: must be the name of an instance",
+                           card->name, name);
+    inp->instance = deck_name(&inp->deck, name);
+    return inp->instance == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
 static enum percuss_status keyword_node(struct inp *inp, const struct card *card)
@@ -625,10 +403,10 @@ static enum percuss_status keyword_node(struct inp *inp, const struct card *card
     const char *set = card_value(card, "NSET"), *frame = card_value(card, "SYSTEM");
     if (frame && strcasecmp(frame, "R") != 0)
         return scan_refuse(inp->scan, "*NODE: SYSTEM=%.20s: must be R (rectangular)", frame);
-    if (is_outside(inp))
-        return PERCUSS_OK;
-    inp->set = SIZE_MAX;
-    if (set && *set && (inp->set = deck_node_set(&inp->deck, set)) == SIZE_MAX)
+    inp->set = DECK_NONE;
+    if (set && *set && !(set = need(inp, card, "NSET")))
+        return PERCUSS_BAD_REQUEST;
+    if (set && *set && (inp->set = deck_set(&inp->deck, DECK_NODES, inp->scope, set)) == DECK_NONE)
         return inp_out_of_memory(inp);
     inp->read = inp_read_node;
     return PERCUSS_OK;
@@ -638,81 +416,101 @@ static enum percuss_status keyword_node(struct inp *inp, const struct card *card
 static enum percuss_status inp_check_type(struct inp *inp, const char *type)
 {
     static const char *const LINEAR[] = {"C3D4", "C3D5", "C3D6", "C3D8"};
-    inp->solid = strncasecmp(type, "C3D", 3) == 0;
-    if (!inp->solid)
-        return PERCUSS_OK;
-    if (strncasecmp(type, "C3D10", 5) == 0 || strncasecmp(type, "C3D20", 5) == 0) {
-        inp->type = type[3] == '1' ? ELEMENT_TET10 : ELEMENT_HEX20;
-        return PERCUSS_OK;
+    inp->element.kind = DECK_OTHER;
+    if (strncasecmp(type, "C3D", 3) != 0)
+        return keyword_is_surface(type) || deck_tell(&inp->deck, "*ELEMENT, TYPE=%.20s: %s", type,
+                                                     "left out: no solids of second order")
+                   ? PERCUSS_OK
+                   : inp_out_of_memory(inp);
+    for (int kind = 0; kind < DECK_OTHER; kind++) {
+        static const char *const TAKEN[] = {"C3D10", "C3D15", "C3D20"};
+        if (strncasecmp(type, TAKEN[kind], 5) == 0 && !isdigit((unsigned char)type[5])) {
+            inp->element.kind = (enum deck_element_kind)kind;
+            return PERCUSS_OK;
+        }
     }
     for (size_t i = 0; i < sizeof LINEAR / sizeof *LINEAR; i++)
         if (strncasecmp(type, LINEAR[i], 4) == 0)
             return scan_refuse(inp->scan,
-                               "*ELEMENT: TYPE=%.20s: must be of second order (C3D10, C3D20), as "
-                               "linear ones are too stiff (first frequency 4 to 15 %% high)",
+                               "*ELEMENT: TYPE=%.20s: must be of second order (C3D10, C3D15, "
+                               "C3D20), as linear ones are too stiff (first frequency 4 to 15 %% "
+                               "high)",
                                type);
-    return scan_refuse(inp->scan, "*ELEMENT: TYPE=%.20s: must be C3D10 or C3D20, or a kind of them",
-                       type);
+    return scan_refuse(
+        inp->scan, "*ELEMENT: TYPE=%.20s: must be C3D10, C3D15 or C3D20, or a kind of them", type);
 }
 
 static enum percuss_status keyword_element(struct inp *inp, const struct card *card)
 {
     const char *type = need(inp, card, "TYPE"), *set = card_value(card, "ELSET");
-    if (!type)
+    if (!type || (set && *set && !need(inp, card, "ELSET")))
         return PERCUSS_BAD_REQUEST;
-    if (is_outside(inp))
-        return PERCUSS_OK;
     enum percuss_status status = inp_check_type(inp, type);
     if (status != PERCUSS_OK)
         return status;
-    set = set && *set ? set : inp->solid ? "body" : "shells";
-    inp->set = deck_element_set(&inp->deck, set);
-    inp->part = inp->solid ? builder_part(&inp->deck.builder, set) : 0;
-    if (inp->set == SIZE_MAX || inp->part == SIZE_MAX)
+    /* in an assembly they name nodes of instances */
+    if (inp->scope == inp->outer) {
+        if (inp->element.kind == DECK_OTHER)
+            return PERCUSS_OK;
+        return scan_refuse(inp->scan, "*ELEMENT: solids must be in a *PART or an *INSTANCE");
+    }
+    set = set && *set ? set : inp->element.kind != DECK_OTHER ? "body" : "shells";
+    inp->set = deck_set(&inp->deck, DECK_ELEMENTS, inp->scope, set);
+    if (inp->set != DECK_NONE)
+        inp->element.group = deck_name(&inp->deck, inp->deck.sets[inp->set].name);
+    if (inp->set == DECK_NONE || inp->element.group == DECK_NONE)
         return inp_out_of_memory(inp);
+    inp->element.scope = inp->scope;
     inp->filled = 0;
     inp->read = inp_read_element;
     return PERCUSS_OK;
 }
 
-static enum percuss_status keyword_node_set(struct inp *inp, const struct card *card)
+/* *NSET, ELSET=: the nodes of its elements, without lines of data */
+static enum percuss_status nodes_of_elements(struct inp *inp, const struct card *card)
 {
-    const char *name = need(inp, card, "NSET");
-    if (!name)
+    const char *elements = need(inp, card, "ELSET");
+    struct deck_item item = {.kind = DECK_ELEMENT_NODES,
+                             .instance = inp->instance,
+                             .name = elements ? deck_name(&inp->deck, elements) : 0,
+                             .place = inp_place(inp)};
+    if (!elements)
         return PERCUSS_BAD_REQUEST;
-    if (card_value(card, "ELSET"))
-        return scan_refuse(inp->scan, "*NSET: ELSET: must be a list of nodes and sets of nodes");
-    if (is_outside(inp) && !card_value(card, "INSTANCE"))
-        return PERCUSS_OK;
-    inp->generate = card_value(card, "GENERATE") != NULL;
-    inp->set = deck_node_set(&inp->deck, name);
-    inp->read = inp_read_node_set;
-    return inp->set == SIZE_MAX ? inp_out_of_memory(inp) : PERCUSS_OK;
+    return item.name != DECK_NONE && deck_add_item(&inp->deck, inp->set, &item)
+               ? PERCUSS_OK
+               : inp_out_of_memory(inp);
 }
 
-static enum percuss_status keyword_element_set(struct inp *inp, const struct card *card)
+static enum percuss_status keyword_set(struct inp *inp, const struct card *card)
 {
-    const char *name = need(inp, card, "ELSET");
-    if (!name)
-        return PERCUSS_BAD_REQUEST;
-    if (is_outside(inp) && !card_value(card, "INSTANCE"))
-        return PERCUSS_OK;
+    bool nodes = card->name[0] == 'N';
+    const char *name = need(inp, card, nodes ? "NSET" : "ELSET");
+    enum percuss_status status = name ? read_instance_name(inp, card) : PERCUSS_BAD_REQUEST;
+    if (status)
+        return status;
     inp->generate = card_value(card, "GENERATE") != NULL;
-    inp->set = deck_element_set(&inp->deck, name);
-    inp->read = inp_read_element_set;
-    return inp->set == SIZE_MAX ? inp_out_of_memory(inp) : PERCUSS_OK;
+    inp->set = deck_set(&inp->deck, nodes ? DECK_NODES : DECK_ELEMENTS, inp->scope, name);
+    inp->read = inp_read_set;
+    if (inp->set == DECK_NONE)
+        return inp_out_of_memory(inp);
+    return nodes && card_value(card, "ELSET") ? nodes_of_elements(inp, card) : PERCUSS_OK;
 }
 
 /* a surface of elements lists faces; one of nodes is a set of nodes */
 static enum percuss_status keyword_surface(struct inp *inp, const struct card *card)
 {
     const char *name = need(inp, card, "NAME"), *type = card_value(card, "TYPE");
+    bool nodes = type && strcasecmp(type, "NODE") == 0;
     if (!name)
         return PERCUSS_BAD_REQUEST;
-    inp->generate = false;
-    inp->set = deck_node_set(&inp->deck, name);
-    inp->read = type && strcasecmp(type, "NODE") == 0 ? inp_read_node_set : inp_read_surface;
-    return inp->set == SIZE_MAX ? inp_out_of_memory(inp) : PERCUSS_OK;
+    if ((type && !nodes && strcasecmp(type, "ELEMENT") != 0) || card_value(card, "COMBINE"))
+        return deck_tell(&inp->deck, "*SURFACE, NAME=%s: left out: no list of faces or nodes", name)
+                   ? PERCUSS_OK
+                   : inp_out_of_memory(inp);
+    inp->instance = DECK_NONE;
+    inp->set = deck_set(&inp->deck, DECK_SURFACE, inp->scope, name);
+    inp->read = nodes ? inp_read_node_surface : inp_read_surface;
+    return inp->set == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
 static enum percuss_status keyword_material(struct inp *inp, const struct card *card)
@@ -720,128 +518,265 @@ static enum percuss_status keyword_material(struct inp *inp, const struct card *
     const char *name = need(inp, card, "NAME");
     if (!name)
         return PERCUSS_BAD_REQUEST;
-    inp->material = deck_material(&inp->deck, name);
-    return inp->material == SIZE_MAX ? inp_out_of_memory(inp) : PERCUSS_OK;
+    inp->material = deck_material(&inp->deck, name, inp_place(inp));
+    return inp->material == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
 /* *ELASTIC, *DENSITY, *PLASTIC belong to the *MATERIAL above */
 static enum percuss_status keyword_property(struct inp *inp, const struct card *card)
 {
     const char *type = card_value(card, "TYPE");
-    if (inp->material == SIZE_MAX)
+    if (inp->material == DECK_NONE)
         return scan_refuse(inp->scan, "*%.20s: must come after a *MATERIAL", card->name);
+    struct deck_material *material = &inp->deck.materials[inp->material];
+    inp->row = 0;
     if (card->name[0] == 'E' && type && strncasecmp(type, "ISO", 3) != 0)
-        return scan_refuse(inp->scan, "*ELASTIC: TYPE=%.40s: must be ISOTROPIC", type);
-    inp->read = card->name[0] == 'E'   ? inp_read_elastic
-                : card->name[0] == 'D' ? inp_read_density
-                                       : inp_read_plastic;
+        snprintf(material->refused, sizeof material->refused,
+                 "%.90s:%zu: *ELASTIC: TYPE=%.40s: must be ISOTROPIC", inp->scan->file,
+                 inp->scan->line, type);
+    else
+        inp->read = card->name[0] == 'E'   ? inp_read_elastic
+                    : card->name[0] == 'D' ? inp_read_density
+                                           : inp_read_plastic;
+    return PERCUSS_OK;
+}
+
+/* another law of the *MATERIAL above: left out beside *ELASTIC, refused without it */
+static enum percuss_status keyword_law(struct inp *inp, const struct card *card)
+{
+    if (inp->material == DECK_NONE)
+        return PERCUSS_OK;
+    struct deck_material *material = &inp->deck.materials[inp->material];
+    if (keyword_replaces_elastic(card->name) && !material->refused[0])
+        snprintf(material->refused, sizeof material->refused,
+                 "%.90s:%zu: *%.30s: is not read: must be *ELASTIC", inp->scan->file,
+                 inp->scan->line, card->name);
+    else if (!material->told[0])
+        snprintf(material->told, sizeof material->told,
+                 "*MATERIAL, NAME=%s: *%.30s is left out: the body is elastic (and yields by "
+                 "*PLASTIC)",
+                 material->name, card->name);
     return PERCUSS_OK;
 }
 
 static enum percuss_status keyword_section(struct inp *inp, const struct card *card)
 {
     const char *set = need(inp, card, "ELSET");
-    const char *name = set ? need(inp, card, "MATERIAL") : NULL;
-    if (!name)
+    const char *material = set ? need(inp, card, "MATERIAL") : NULL;
+    if (!material)
         return PERCUSS_BAD_REQUEST;
-    size_t elements = deck_element_set(&inp->deck, set), found = deck_material(&inp->deck, name);
-    return elements != SIZE_MAX && found != SIZE_MAX &&
-                   deck_add_section(&inp->deck, elements, found)
+    struct deck_section section = {inp->scope, deck_name(&inp->deck, set),
+                                   deck_name(&inp->deck, material), inp_place(inp)};
+    return section.set != DECK_NONE && section.material != DECK_NONE &&
+                   deck_add_section(&inp->deck, &section)
                ? PERCUSS_OK
                : inp_out_of_memory(inp);
 }
 
-/* reads a file beside this one in place of the line; its first lines of data may belong to the
- * keyword above */
-static enum percuss_status keyword_include(struct inp *inp, const struct card *card)
+/* reads another file in place of the line; its first lines of data may belong to the keyword above
+ */
+static enum percuss_status read_other_file(struct inp *inp, const struct card *card)
 {
-    const char *name = need(inp, card, "INPUT");
+    const char *name = card_value(card, "INPUT");
     char path[INP_PATH_SIZE];
-    if (!name)
-        return PERCUSS_BAD_REQUEST;
+    if (!name || !*name)
+        return scan_refuse(inp->scan, "*%.40s: INPUT=: must be there", card->name);
     if (inp->depth == INP_MOST_DEPTH)
         return scan_refuse(inp->scan, "*INCLUDE: must not be more than %d deep", INP_MOST_DEPTH);
-    inp_include_path(inp->scan->file, name, path);
+    inp_include_path(inp->path, inp->scan->file, name, path);
+    if (access(path, R_OK) != 0)
+        return scan_refuse(inp->scan,
+                           "*%.40s: INPUT=%.200s: %s: must be in the deck's folder, in that of the "
+                           "file that names it or in the current one",
+                           card->name, name, strerror(errno));
     struct scan *outer = inp->scan;
+    size_t file = inp->file;
     inp->depth++;
     enum percuss_status status = read_deck(inp, path);
     inp->depth--;
     inp->scan = outer;
+    inp->file = file;
     return status;
 }
 
-static enum percuss_status keyword_part(struct inp *inp, const struct card *card)
+static enum percuss_status open_scope(struct inp *inp, enum deck_scope_kind kind, const char *name)
 {
-    (void)card;
-    if (++inp->parts > 1)
-        return scan_refuse(inp->scan,
-                           "*PART: is the second one: must be one body; export one part");
-    return PERCUSS_OK;
+    inp->scope = deck_add_scope(&inp->deck, kind, name);
+    return inp->scope == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
-static enum percuss_status keyword_assembly(struct inp *inp, const struct card *card)
+static enum percuss_status keyword_scope(struct inp *inp, const struct card *card)
 {
-    inp->assembly = card->name[0] == 'A';
+    bool part = card->name[0] == 'P';
+    const char *name = need(inp, card, "NAME");
+    if (!name)
+        return PERCUSS_BAD_REQUEST;
+    if (inp->scope != 0)
+        return scan_refuse(inp->scan, "*%s: must not be inside another one, nor inside *%s",
+                           card->name, part ? "ASSEMBLY" : "PART");
+    enum percuss_status status = open_scope(inp, part ? DECK_PART : DECK_ASSEMBLY, name);
+    if (!part)
+        inp->outer = inp->scope;
+    return status;
+}
+
+static enum percuss_status keyword_end_scope(struct inp *inp, const struct card *card)
+{
+    bool instance = strcmp(card->name, "ENDINSTANCE") == 0;
+    inp->scope = instance && inp->outer != DECK_NONE ? inp->outer : 0;
+    if (!instance)
+        inp->outer = DECK_NONE;
     return PERCUSS_OK;
 }
 
 static enum percuss_status keyword_instance(struct inp *inp, const struct card *card)
 {
-    inp->instance = card->name[0] == 'I';
-    if (inp->instance && ++inp->instances > 1)
-        return scan_refuse(inp->scan,
-                           "*INSTANCE: is the second one: must be one body; export one part");
-    inp->read = inp->instance ? inp_read_instance : NULL;
-    return PERCUSS_OK;
+    const char *name = card_value(card, "NAME"), *part = card_value(card, "PART");
+    if (inp->outer == DECK_NONE || inp->scope != inp->outer)
+        return scan_refuse(inp->scan, "*INSTANCE: must be in an *ASSEMBLY");
+    if (card_value(card, "LIBRARY"))
+        return scan_refuse(inp->scan, "*INSTANCE: LIBRARY=: must be of a part of this deck");
+    if ((name && !need(inp, card, "NAME")) || (part && !need(inp, card, "PART")))
+        return PERCUSS_BAD_REQUEST;
+    if (is_instance(inp, name ? name : "instance"))
+        return scan_refuse(inp->scan, "*INSTANCE: NAME=%s: is the second of this name", name);
+    enum percuss_status status = open_scope(inp, DECK_INSTANCE, name ? name : "instance");
+    if (!status)
+        snprintf(inp->deck.scopes[inp->scope].of, MESH_NAME_SIZE, "%s", part ? part : "");
+    inp->row = 0;
+    inp->read = inp_read_instance;
+    return status;
 }
 
 static enum percuss_status keyword_step(struct inp *inp, const struct card *card)
 {
     (void)card;
-    inp->done = true;
+    inp->step = true;
     return PERCUSS_OK;
 }
 
-/* keywords that generate nodes and elements */
-static enum percuss_status keyword_refuse(struct inp *inp, const struct card *card)
+static enum percuss_status keyword_boundary(struct inp *inp, const struct card *card)
 {
-    return scan_refuse(inp->scan,
-                       "*%.40s: is not read: nodes and elements must be written out one by one",
-                       card->name);
+    (void)card;
+    inp->read = inp_read_boundary;
+    return PERCUSS_OK;
+}
+
+/* stresses at the beginning stiffen a body, other conditions do not matter here */
+static enum percuss_status keyword_conditions(struct inp *inp, const struct card *card)
+{
+    const char *type = card_value(card, "TYPE");
+    if (type && strncasecmp(type, "STRESS", 6) != 0 && strncasecmp(type, "PLASTIC", 7) != 0 &&
+        strncasecmp(type, "HARDENING", 9) != 0)
+        return PERCUSS_OK;
+    return deck_tell(&inp->deck,
+                     "*INITIAL CONDITIONS, TYPE=%.20s: left out: the body has no "
+                     "prestress here",
+                     type ? type : "")
+               ? PERCUSS_OK
+               : inp_out_of_memory(inp);
 }
 
 static const struct {
     const char *name;
     card_reader *read;
-} CARDS[] = {{"NODE", keyword_node},         {"ELEMENT", keyword_element},
-             {"NSET", keyword_node_set},     {"ELSET", keyword_element_set},
-             {"SURFACE", keyword_surface},   {"MATERIAL", keyword_material},
-             {"ELASTIC", keyword_property},  {"DENSITY", keyword_property},
-             {"PLASTIC", keyword_property},  {"SOLID SECTION", keyword_section},
-             {"INCLUDE", keyword_include},   {"PART", keyword_part},
-             {"ASSEMBLY", keyword_assembly}, {"END ASSEMBLY", keyword_assembly},
-             {"INSTANCE", keyword_instance}, {"END INSTANCE", keyword_instance},
-             {"STEP", keyword_step},         {"SYSTEM", keyword_refuse},
-             {"NGEN", keyword_refuse},       {"NFILL", keyword_refuse},
-             {"NCOPY", keyword_refuse},      {"ELGEN", keyword_refuse},
-             {"ELCOPY", keyword_refuse}};
+} CARDS[] = {{"NODE", keyword_node},
+             {"ELEMENT", keyword_element},
+             {"NSET", keyword_set},
+             {"ELSET", keyword_set},
+             {"SURFACE", keyword_surface},
+             {"MATERIAL", keyword_material},
+             {"ELASTIC", keyword_property},
+             {"DENSITY", keyword_property},
+             {"PLASTIC", keyword_property},
+             {"SOLIDSECTION", keyword_section},
+             {"INCLUDE", read_other_file},
+             {"PART", keyword_scope},
+             {"ASSEMBLY", keyword_scope},
+             {"ENDPART", keyword_end_scope},
+             {"ENDASSEMBLY", keyword_end_scope},
+             {"INSTANCE", keyword_instance},
+             {"ENDINSTANCE", keyword_end_scope},
+             {"STEP", keyword_step},
+             {"BOUNDARY", keyword_boundary},
+             {"INITIALCONDITIONS", keyword_conditions}};
+
+/* a keyword that says nothing of nodes and elements */
+static enum percuss_status read_other_card(struct inp *inp, const struct card *card)
+{
+    const char *meaning;
+    bool told = true;
+    switch (keyword_find(card->name, &meaning)) {
+    case KEYWORD_REFUSED:
+        return scan_refuse(inp->scan, "*%.40s: is not read: %s", card->name, meaning);
+    case KEYWORD_LAW:
+        return keyword_law(inp, card);
+    case KEYWORD_TOLD:
+        told = deck_tell(&inp->deck, "*%.40s (line %zu): %s", card->name, inp->scan->line, meaning);
+        break;
+    case KEYWORD_HARMLESS:
+        break;
+    case KEYWORD_UNKNOWN:
+        told = deck_tell(&inp->deck, "*%.40s (line %zu): is not known here: left out", card->name,
+                         inp->scan->line);
+        break;
+    }
+    return told ? PERCUSS_OK : inp_out_of_memory(inp);
+}
+
+/* steps tell of supports and of loads before a frequency is asked for; the rest is no matter of the
+ * body */
+static enum percuss_status read_step_card(struct inp *inp, const struct card *card)
+{
+    const char *meaning;
+    if (strcmp(card->name, "BOUNDARY") == 0)
+        return keyword_boundary(inp, card);
+    if (keyword_find_in_step(card->name, &meaning) &&
+        !deck_tell(&inp->deck, "*%.40s (line %zu): %s", card->name, inp->scan->line, meaning))
+        return inp_out_of_memory(inp);
+    return PERCUSS_OK;
+}
+
+/* The keyword above has no unfinished element. */
+static enum percuss_status end_element(const struct inp *inp)
+{
+    if (inp->read != inp_read_element || inp->filled == 0)
+        return PERCUSS_OK;
+    return scan_refuse(inp->scan, "*ELEMENT: %zu: has %zu nodes: must have more",
+                       inp->element.label, inp->filled);
+}
+
+static enum percuss_status read_keyword(struct inp *inp, const struct card *card)
+{
+    if (inp->step)
+        return read_step_card(inp, card);
+    for (size_t i = 0; i < sizeof CARDS / sizeof *CARDS; i++)
+        if (strcmp(card->name, CARDS[i].name) == 0)
+            return CARDS[i].read(inp, card);
+    return read_other_card(inp, card);
+}
 
 static enum percuss_status read_card(struct inp *inp, char *line)
 {
     struct card card;
-    card_parse(line, &card);
+    bool whole = card_parse(line, &card);
     inp->begun = true;
+    if (!whole)
+        return scan_refuse(inp->scan, "*%.40s: must have at most %d parameters", card.name,
+                           CARD_MOST_PARAMETERS);
     /* lines of data may continue in and after an included file */
-    if (strcmp(card.name, "INCLUDE") != 0) {
-        if (inp->read == inp_read_element && inp->filled > 0)
-            return scan_refuse(inp->scan, "*ELEMENT: %zu: has %zu nodes: must have more",
-                               inp->label, inp->filled);
+    bool include = !inp->step && strcmp(card.name, "INCLUDE") == 0;
+    if (!include) {
+        enum percuss_status status = end_element(inp);
+        if (status)
+            return status;
         inp->read = NULL;
     }
-    for (size_t i = 0; i < sizeof CARDS / sizeof *CARDS; i++)
-        if (strcmp(card.name, CARDS[i].name) == 0)
-            return CARDS[i].read(inp, &card);
-    return PERCUSS_OK;
+    enum percuss_status status = read_keyword(inp, &card);
+    /* any keyword may have its lines of data in a file */
+    return status || include || !inp->read || !card_value(&card, "INPUT")
+               ? status
+               : read_other_file(inp, &card);
 }
 
 /* reads the deck or a file that it includes */
@@ -854,38 +789,57 @@ static enum percuss_status read_deck(struct inp *inp, const char *path)
     if (status != PERCUSS_OK)
         return status;
     inp->scan = &scan;
-    while (!inp->done && card_line(&scan, line, &status)) {
+    inp->file = deck_file(&inp->deck, path);
+    if (inp->file == DECK_NONE)
+        status = inp_out_of_memory(inp);
+    while (!status && card_line(&scan, line, &status))
         status = line[0] == '*' ? read_card(inp, line)
                  : inp->read    ? inp->read(inp, line)
                  : inp->begun   ? PERCUSS_OK
                                 : scan_refuse(&scan, "must begin with a keyword, such as *NODE: is "
                                                        "it a deck of Abaqus or CalculiX?");
-        if (status != PERCUSS_OK)
-            break;
-    }
-    if (status == PERCUSS_OK && inp->depth == 0 && inp->read == inp_read_element && inp->filled > 0)
-        status = scan_refuse(&scan, "*ELEMENT: %zu: has %zu nodes: must have more", inp->label,
-                             inp->filled);
+    if (!status && inp->depth == 0)
+        status = end_element(inp);
     scan_close(&scan);
     return status;
 }
 
-enum percuss_status inp_read(const char *path, double unit, struct solid_mesh *mesh,
-                             struct fault *fault)
+enum percuss_status inp_read(const char *path, double unit, const char *instance,
+                             struct solid_mesh *mesh, struct fault *fault)
 {
     struct scan scan = {.file = path, .fault = fault};
-    struct inp inp = {.scan = &scan, .set = SIZE_MAX, .material = SIZE_MAX};
+    struct inp inp = {.scan = &scan,
+                      .path = path,
+                      .set = DECK_NONE,
+                      .material = DECK_NONE,
+                      .outer = DECK_NONE,
+                      .instance = DECK_NONE};
     memset(mesh, 0, sizeof *mesh);
-    enum percuss_status status = read_deck(&inp, path);
+    enum percuss_status status = open_scope(&inp, DECK_MODEL, "");
     if (status == PERCUSS_OK)
-        status = deck_finish(&inp.deck, path, unit, mesh, fault);
+        status = read_deck(&inp, path);
+    if (status == PERCUSS_OK)
+        status = deck_body_make(&inp.deck, unit, instance, mesh, fault);
     deck_free(&inp.deck);
     return status;
 }
 
-void inp_include_path(const char *file, const char *name, char path[INP_PATH_SIZE])
+/* `name` in the folder of `file` */
+static void join_path(const char *file, const char *name, char path[INP_PATH_SIZE])
 {
     const char *slash = strrchr(file, '/');
     int folder = *name != '/' && slash ? (int)(slash + 1 - file) : 0;
     snprintf(path, INP_PATH_SIZE, "%.*s%s", folder, file, name);
+}
+
+void inp_include_path(const char *deck, const char *file, const char *name,
+                      char path[INP_PATH_SIZE])
+{
+    const char *const folders[] = {deck, file, ""};
+    for (int i = 0; i < 3; i++) {
+        join_path(folders[i], name, path);
+        if (access(path, R_OK) == 0)
+            return;
+    }
+    join_path(deck, name, path);
 }

@@ -3,6 +3,7 @@
 
 #include "mesh/mesh_format.h"
 
+#include <ctype.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,15 +24,12 @@ static const struct {
 static const struct {
     const char *begin;
     enum mesh_format format;
-} BEGINNINGS[] = {{"$MeshFormat", MESH_FORMAT_MSH},   {"$NOD", MESH_FORMAT_MSH},
-                  {"*NODE", MESH_FORMAT_INP},         {"*HEADING", MESH_FORMAT_INP},
-                  {"*PART", MESH_FORMAT_INP},         {"*INCLUDE", MESH_FORMAT_INP},
-                  {"*PREPRINT", MESH_FORMAT_INP},     {"BEGIN BULK", MESH_FORMAT_BDF},
-                  {"GRID ", MESH_FORMAT_BDF},         {"GRID*", MESH_FORMAT_BDF},
-                  {"GRID,", MESH_FORMAT_BDF},         {"SOL ", MESH_FORMAT_BDF},
-                  {"CEND", MESH_FORMAT_BDF},          {"# vtk", MESH_FORMAT_VTK},
-                  {"-1\n", MESH_FORMAT_UNV},          {"-1\r", MESH_FORMAT_UNV},
-                  {"ISO-10303-21", MESH_FORMAT_SHAPE}};
+} BEGINNINGS[] = {{"$MeshFormat", MESH_FORMAT_MSH}, {"$NOD", MESH_FORMAT_MSH},
+                  {"BEGIN BULK", MESH_FORMAT_BDF},  {"GRID ", MESH_FORMAT_BDF},
+                  {"GRID*", MESH_FORMAT_BDF},       {"GRID,", MESH_FORMAT_BDF},
+                  {"SOL ", MESH_FORMAT_BDF},        {"CEND", MESH_FORMAT_BDF},
+                  {"# vtk", MESH_FORMAT_VTK},       {"-1\n", MESH_FORMAT_UNV},
+                  {"-1\r", MESH_FORMAT_UNV},        {"ISO-10303-21", MESH_FORMAT_SHAPE}};
 
 /* Formats of other programs by the end of their names (between spaces) or their beginning, and what
  * these programs can write instead. */
@@ -106,6 +104,9 @@ enum mesh_format mesh_format_of(const char *path)
     /* another program's contents win over a name that is read */
     if (foreign_beginning(line))
         return MESH_FORMAT_NONE;
+    /* a keyword of a deck, with any blanks */
+    if (line[0] == '*' && isalpha((unsigned char)line[1 + strspn(line + 1, " ")]))
+        return MESH_FORMAT_INP;
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
         if (strcasecmp(suffix, NAMES[i].suffix) == 0)
             return NAMES[i].format;

@@ -286,7 +286,7 @@ static enum percuss_status read_format(const char *path, enum mesh_format format
 {
     switch (format) {
     case MESH_FORMAT_INP:
-        return inp_read(path, options->unit, mesh, fault);
+        return inp_read(path, options->unit, options->instance, mesh, fault);
     case MESH_FORMAT_BDF:
         return bdf_read(path, options->unit, options->raise, mesh, fault);
     case MESH_FORMAT_VTK:
@@ -326,6 +326,7 @@ enum percuss_status mesh_read(const char *path, const struct mesh_options *optio
 struct digest_walk {
     struct sha256 *hash;
     enum mesh_format format; /* follow the files that its decks include */
+    const char *path;        /* of the first file */
     int depth;
     bool done; /* after *STEP: the reader stops there */
 };
@@ -333,15 +334,16 @@ struct digest_walk {
 static enum percuss_status digest_add_file(struct digest_walk *digest, const char *path,
                                            struct fault *fault);
 
-/* Follows *INCLUDE, and stops at *STEP. */
+/* Follows the files of INPUT=, of *INCLUDE and others, and stops at *STEP. */
 static enum percuss_status digest_follow(struct digest_walk *digest, struct scan *scan, char *line)
 {
     struct card card;
     char path[INP_PATH_SIZE];
-    card_parse(line, &card);
+    if (!card_parse(line, &card))
+        return PERCUSS_OK; /* the reader refuses it */
     if (strcmp(card.name, "STEP") == 0)
         digest->done = true;
-    const char *name = strcmp(card.name, "INCLUDE") == 0 ? card_value(&card, "INPUT") : NULL;
+    const char *name = card_value(&card, "INPUT");
     if (!name || !*name)
         return PERCUSS_OK;
     /* the reader refuses deeper files */
@@ -349,8 +351,10 @@ static enum percuss_status digest_follow(struct digest_walk *digest, struct scan
         digest->done = true;
         return PERCUSS_OK;
     }
-    /* the file beside this one */
-    inp_include_path(scan->file, name, path);
+    /* the reader asks for files of some keywords only: those that are not there are its matter */
+    inp_include_path(digest->path, scan->file, name, path);
+    if (access(path, R_OK) != 0 && strcmp(card.name, "INCLUDE") != 0)
+        return PERCUSS_OK;
     digest->depth++;
     enum percuss_status status = digest_add_file(digest, path, scan->fault);
     digest->depth--;
@@ -407,6 +411,6 @@ static enum percuss_status digest_add_file(struct digest_walk *digest, const cha
 
 enum percuss_status mesh_digest(const char *path, struct sha256 *hash, struct fault *fault)
 {
-    struct digest_walk digest = {.hash = hash, .format = mesh_format_of(path)};
+    struct digest_walk digest = {.hash = hash, .format = mesh_format_of(path), .path = path};
     return digest_add_file(&digest, path, fault);
 }

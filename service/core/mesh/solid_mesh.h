@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/fault.h"
 #include "model/material.h"
 
 /* Nodes of an element in the order of Gmsh. */
@@ -18,13 +19,18 @@ enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64, MESH_REMARK_SIZE = 240 };
 /* Elements of one material: a physical volume, an element set. */
 struct mesh_part {
     char name[MESH_NAME_SIZE];
-    bool has_material; /* the file states it; else the caller sets it */
-    struct material material;
+    bool has_material;              /* the file states it; else the caller sets it */
+    struct material material;       /* what the file does not state: NAN */
+    char lacks[2 * MESH_NAME_SIZE]; /* which card is not there, "" where formats have none */
 };
 
-/* Named nodes that a support may hold: a physical surface, a node set. */
+/* Named nodes that a support may hold: a physical surface, a node set. Names of decks have a scope
+ * each, the part, assembly or instance where they stand. */
 struct mesh_set {
     char name[MESH_NAME_SIZE];
+    char scope[MESH_NAME_SIZE];    /* "": there is none */
+    char instance[MESH_NAME_SIZE]; /* that the body is of the part `scope`; "": none */
+    const char *kind;              /* "nodes", "elements", "surface"; NULL: there is one kind */
     size_t count;
     size_t *nodes; /* [count], ascending */
 };
@@ -48,6 +54,11 @@ struct solid_mesh {
     size_t remark_count;
     char (*remarks)[MESH_REMARK_SIZE]; /* what its reader left out or added, for the user */
 };
+
+/* The set of a name: SCOPE.NAME, INSTANCE.NAME or NAME, each with " (KIND)" behind it if wanted.
+ * PERCUSS_BAD_REQUEST: there is none, or several that differ; the message lists them. */
+enum percuss_status solid_mesh_find_set(const struct solid_mesh *mesh, const char *name,
+                                        size_t *index, struct fault *fault);
 
 void solid_mesh_free(struct solid_mesh *mesh);
 

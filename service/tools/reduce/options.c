@@ -21,6 +21,7 @@ enum {
     DENSITY,
     SIZE,
     RAISE,
+    INSTANCE,
     SITE,
     STIFFNESS,
     MASS,
@@ -48,7 +49,9 @@ static const struct argp_option list[] = {
     {"material", 'm', "NAME", 0, "A material of the catalogue, for all parts", 1},
     {"part", 'p', "PART=NAME", 0, "A material of the catalogue for one part", 1},
     {"catalogue", 'C', "FILE", 0, "Where the materials stand", 1},
-    {"young", YOUNG, "E", 0, "Or by numbers: Young's modulus in Pa, or such as 70GPa,", 1},
+    {"young", YOUNG, "E", 0,
+     "Or by numbers, all three, or those that FILE lacks: Young's modulus in Pa, or such as 70GPa,",
+     1},
     {"poisson", POISSON, "N", 0, "Poisson's ratio,", 1},
     {"density", DENSITY, "R", 0, "and density in kg/m^3, or such as 2.7g/cm^3", 1},
     {NULL, 0, NULL, 0, "How it is computed:", 2},
@@ -62,7 +65,9 @@ static const struct argp_option list[] = {
      "modes",
      2},
     {"modes", 'n', "N", 0, "So many modes instead", 2},
-    {"fixed", 'x', "SET", 0, "Hold the nodes of a set (as often as needed)", 2},
+    {"instance", INSTANCE, "NAME", 0, "Of the instances in a deck's assembly, the body", 2},
+    {"fixed", 'x', "SET", 0,
+     "Hold the nodes of a set, such as foot or PART.foot (as often as needed)", 2},
     {"stiffness", STIFFNESS, "K", 0, "Take it from a file (.mtx, .sti), with", 2},
     {"mass", MASS, "M", 0, "the mass (.mtx, .mas)", 2},
     {"freedoms", FREEDOMS, "DOF", 0, "and which row is which direction (.dof)", 2},
@@ -235,6 +240,9 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
         options->modes = (size_t)parse_number(state, "modes", text, 1.0, LIMIT_MODES);
         return 0;
     /* places */
+    case INSTANCE:
+        options->instance = text;
+        return 0;
     case 'x':
         check_room(state, "fixed", options->fixed_count);
         options->fixed[options->fixed_count++] = text;
@@ -255,8 +263,6 @@ static void options_check(struct argp_state *state, const struct options *option
         argp_error(state, "FILE must be given");
     if (!options->body)
         argp_error(state, "-o BODY.h5 must be given");
-    if (numbers && (isnan(options->young) || isnan(options->poisson) || isnan(options->density)))
-        argp_error(state, "--young, --poisson and --density must be given together");
     if (numbers && options->material)
         argp_error(state, "--material: must be given without --young, --poisson and --density");
     if ((options->material || options->part_count) && !options->catalogue)

@@ -17,9 +17,10 @@ struct part_option {
 
 struct options {
     const char *file, *body, *vtk; /* the mesh, the body's file; NULL: no file for ParaView */
+    const char *instance;          /* of a deck's assembly; NULL: the only one */
     const char *catalogue, *material;
     const char *stiffness, *mass, *freedoms; /* matrices that another program has assembled */
-    double young, poisson, density;          /* NAN: not given */
+    double young, poisson, density;          /* NAN: not given; fewer than all fill gaps */
     double unit, size;                       /* m; 0: not given */
     double max_frequency;                    /* Hz; 0: from the mesh */
     size_t modes;                            /* 0: from the frequency */

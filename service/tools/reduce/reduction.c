@@ -136,6 +136,41 @@ static enum percuss_status assign_named_materials(const struct options *options,
     return status;
 }
 
+/* A number of the command line for the parts that lack it; *lacking: whether one did. */
+static double complete(double stated, double given, bool *lacking)
+{
+    bool lacks = isnan(stated) && !isnan(given);
+    *lacking = *lacking || lacks;
+    return lacks ? given : stated;
+}
+
+/* Fills what the mesh's file does not state. PERCUSS_BAD_REQUEST: it lacks none of these. */
+static enum percuss_status complete_materials(const struct options *options,
+                                              struct solid_mesh *mesh, struct fault *fault)
+{
+    bool young = isnan(options->young), poisson = isnan(options->poisson),
+         density = isnan(options->density);
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        struct material *material = &mesh->part[i].material;
+        material->young = complete(material->young, options->young, &young);
+        material->poisson = complete(material->poisson, options->poisson, &poisson);
+        material->density = complete(material->density, options->density, &density);
+        mesh->part[i].has_material =
+            !isnan(material->young) && !isnan(material->poisson) && !isnan(material->density);
+        if (mesh->part[i].has_material && !material->name[0])
+            snprintf(material->name, sizeof material->name, "given");
+    }
+    if (young && poisson && density)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "--%s: %s states it for every part already: to override that give --young, "
+                     "--poisson and --density, all three",
+                     !young     ? "young"
+                     : !poisson ? "poisson"
+                                : "density",
+                     options->file);
+}
+
 /* Materials of the command line override those of the mesh's file. PERCUSS_BAD_REQUEST: a part has
  * no material, or there is no such part or material. */
 static enum percuss_status materials_assign(const struct options *options, struct solid_mesh *mesh,
@@ -143,22 +178,28 @@ static enum percuss_status materials_assign(const struct options *options, struc
 {
     /* one material given by numbers is that of every part */
     struct fault inner = {""};
-    if (!isnan(options->young)) {
+    enum percuss_status status = PERCUSS_OK;
+    if (!isnan(options->young) && !isnan(options->poisson) && !isnan(options->density)) {
         struct material material = {"given",          options->young, options->poisson,
                                     options->density, INFINITY,       0.0};
         for (size_t i = 0; i < mesh->part_count; i++)
             give_material(&mesh->part[i], &material);
+    } else {
+        status = complete_materials(options, mesh, fault);
     }
     /* names on the command line go before it */
-    enum percuss_status status = assign_named_materials(options, mesh, fault);
+    if (!status)
+        status = assign_named_materials(options, mesh, fault);
     /* each part has one that is good */
     for (size_t i = 0; !status && i < mesh->part_count; i++) {
         const struct mesh_part *part = &mesh->part[i];
         if (!part->has_material)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "part \"%s\": has no material: give --material NAME --catalogue FILE, "
-                             "or --young, --poisson and --density",
-                             part->name);
+                             "part \"%s\": has no material%s%s%s: give --material NAME "
+                             "--catalogue FILE, or --young, --poisson and --density (those that "
+                             "are missing)",
+                             part->name, part->lacks[0] ? " (" : "", part->lacks,
+                             part->lacks[0] ? ")" : "");
         if (material_check(&part->material, &inner))
             return fault_set(fault, PERCUSS_BAD_REQUEST, "material of part \"%s\": %s", part->name,
                              inner.text);
@@ -223,8 +264,10 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
 {
     /* the mesh, its materials and its surface, each checked by the next step */
     const struct options *options = reduction->options;
-    struct mesh_options how = {
-        .unit = options->unit, .size = options->size * options->unit, .raise = options->raise};
+    struct mesh_options how = {.unit = options->unit,
+                               .size = options->size * options->unit,
+                               .instance = options->instance,
+                               .raise = options->raise};
     struct solid_mesh *mesh = &reduction->mesh;
     enum percuss_status status = mesh_read(options->file, &how, mesh, fault);
     for (size_t i = 0; i < mesh->remark_count; i++)
@@ -258,15 +301,10 @@ static enum percuss_status hold_sets(struct reduction *reduction, struct fault *
     enum percuss_status status = PERCUSS_OK;
     for (size_t k = 0; k < reduction->options->fixed_count && !status; k++) {
         const char *name = reduction->options->fixed[k];
-        size_t i = 0, length = strlen(reduction->supports);
-        while (i < mesh->set_count && strcmp(mesh->set[i].name, name) != 0)
-            i++;
-        if (i == mesh->set_count)
-            return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "--fixed: %s: the mesh has %zu named set%s of nodes%s%s", name,
-                             mesh->set_count, mesh->set_count == 1 ? "" : "s",
-                             mesh->set_count ? ", the first is " : "",
-                             mesh->set_count ? mesh->set[0].name : "");
+        size_t i, length = strlen(reduction->supports);
+        struct fault inner = {""};
+        if (solid_mesh_find_set(mesh, name, &i, &inner))
+            return fault_set(fault, PERCUSS_BAD_REQUEST, "--fixed: %s", inner.text);
         status = matrices_hold(&reduction->matrices, &mesh->set[i], fault);
         snprintf(reduction->supports + length, sizeof reduction->supports - length, "%s%s",
                  length ? " " : "", name);

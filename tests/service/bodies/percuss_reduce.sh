@@ -110,7 +110,7 @@ say "refusals"
 expect 1 reduce
 says 'has no material: give --material NAME'
 expect 1 reduce $steel --fixed high
-says '--fixed: high: the mesh has'
+says '--fixed: high: must be the name of a set of nodes: '
 expect 1 reduce --catalogue "$work/catalogue.yaml" --material steal
 says 'steal'
 expect 1 reduce --catalogue "$work/catalogue.yaml" --material steel --part middle=light
@@ -127,8 +127,8 @@ sed 's/C3D20/C3D8/' "$work/block.inp" >"$work/linear.inp"
 expect 1 "$bin/percuss-reduce" "$work/linear.inp" $steel -o "$work/none.h5"
 says 'C3D8'
 [ ! -e "$work/none.h5" ] || fail "a file of nothing"
-expect 2 reduce --young 210e9
-says 'must be given together'
+expect 1 reduce --young 210e9
+says 'has no material: give'
 expect 2 reduce --young 210mm --poisson 0.3 --density 7800
 says "--young: 210mm: must be a modulus, 1 to 1e+15 Pa, or with a unit, such as 70 GPa"
 expect 2 reduce $steel --modes 5 --max-frequency 100

@@ -1,0 +1,32 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Keywords of decks that describe no node, element or set, and what they mean for a body. Names are
+ * in capitals, without blanks. */
+#ifndef PERCUSS_MESH_INP_KEYWORDS_H
+#define PERCUSS_MESH_INP_KEYWORDS_H
+
+#include <stdbool.h>
+
+enum keyword_kind {
+    KEYWORD_UNKNOWN,
+    KEYWORD_HARMLESS, /* says nothing of a free elastic body's vibration */
+    KEYWORD_TOLD,     /* left out, with a line that says so */
+    KEYWORD_LAW,      /* of a material */
+    KEYWORD_REFUSED
+};
+
+/* *meaning: of what is told or refused. */
+enum keyword_kind keyword_find(const char *name, const char **meaning);
+
+/* Whether a keyword after *STEP is to be told. */
+bool keyword_find_in_step(const char *name, const char **meaning);
+
+/* Whether a law stands in place of *ELASTIC, rather than beside it. */
+bool keyword_replaces_elastic(const char *name);
+
+/* Whether a type of element is a shell, a plane one or a line, which meshers write for surfaces and
+ * edges. */
+bool keyword_is_surface(const char *type);
+
+#endif
