@@ -1,0 +1,329 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""Decks as other people write them, right and damaged: what percuss-reduce says of each, against mass, inertia and
+frequencies of an assembly of its own. Its shape functions are the polynomials that interpolate an element's nodes, its
+quadrature is Gauss's of five points a direction in collapsed coordinates: both share nothing with the solver's. All
+elements are straight, so that integrals are exact. Exit code 1 where one differs."""
+
+import itertools
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from scipy.linalg import eigh
+
+REDUCE = os.path.join(os.path.dirname(os.environ["PERCUSS_LIBRARY"]), "..", "bin", "percuss-reduce")
+STEEL = (210e9, 0.3, 7800.0)
+LIGHT = (70e9, 0.33, 2700.0)
+FREQUENCIES = 4
+# rounding of two assemblies and two solvers (the conditions of these matrices are about 1e8)
+WITHIN = 1e-7
+failed = []
+
+# ---- elements, nodes in the order of Abaqus' manual ----
+
+EDGES = {
+    "C3D10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "C3D15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "C3D20": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
+}
+CORNERS = {
+    "C3D10": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    "C3D15": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)],
+    "C3D20": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
+}
+POWERS = {
+    "C3D10": [p for p in itertools.product(range(3), repeat=3) if sum(p) <= 2],
+    "C3D15": [p for p in itertools.product(range(3), repeat=3) if p[0] + p[1] <= (1 if p[2] == 2 else 2)],
+    "C3D20": [p for p in itertools.product(range(3), repeat=3) if p.count(2) <= 1],
+}
+
+
+def with_middles(kind, corners):
+    corners = [np.array(c, float) for c in corners]
+    return corners + [(corners[a] + corners[b]) / 2 for a, b in EDGES[kind]]
+
+
+def points_of(kind):
+    """Places and weights in natural coordinates from 0 to 1."""
+    x, w = np.polynomial.legendre.leggauss(5)
+    x, w = (x + 1) / 2, w / 2
+    for (a, wa), (b, wb), (c, wc) in itertools.product(zip(x, w), repeat=3):
+        if kind == "C3D20":
+            yield (a, b, c), wa * wb * wc
+        elif kind == "C3D15":
+            yield (a, b * (1 - a), c), wa * wb * wc * (1 - a)
+        else:
+            yield (a, b * (1 - a), c * (1 - a) * (1 - b)), wa * wb * wc * (1 - a) ** 2 * (1 - b)
+
+
+def monomials(kind, at):
+    value = np.array([np.prod([x**p for x, p in zip(at, ps)]) for ps in POWERS[kind]])
+    slope = np.zeros((len(value), 3))
+    for i, ps in enumerate(POWERS[kind]):
+        for k in range(3):
+            if ps[k]:
+                slope[i, k] = ps[k] * np.prod([x ** (p - (j == k)) for j, (x, p) in enumerate(zip(at, ps))])
+    return value, slope
+
+
+def element(kind, places, material):
+    """Stiffness, mass as scalars between nodes."""
+    natural = with_middles(kind, CORNERS[kind])
+    inverse = np.linalg.inv(np.array([monomials(kind, at)[0] for at in natural]))
+    young, poisson, density = material
+    shear = young / (2 + 2 * poisson)
+    lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    n = len(places)
+    stiffness, mass = np.zeros((n, 3, n, 3)), np.zeros((n, n))
+    for at, weight in points_of(kind):
+        value, slope = monomials(kind, at)
+        shape, slope = inverse.T @ value, inverse.T @ slope
+        jacobian = places.T @ slope
+        gradient = slope @ np.linalg.inv(jacobian)
+        volume = weight * np.linalg.det(jacobian)
+        assert volume > 0
+        mass += density * volume * np.outer(shape, shape)
+        inner = gradient @ gradient.T
+        for i, j in itertools.product(range(3), repeat=2):
+            stiffness[:, i, :, j] += volume * (
+                lame * np.outer(gradient[:, i], gradient[:, j])
+                + shear * np.outer(gradient[:, j], gradient[:, i])
+                + (shear * inner if i == j else 0)
+            )
+    return stiffness.reshape(3 * n, 3 * n), mass
+
+
+class Body:
+    """Elements (kind, corners, material) with straight edges, in millimetres. Numbers its nodes."""
+
+    def __init__(self, elements):
+        self.number, self.elements = {}, []
+        for kind, corners, material in elements:
+            places = with_middles(kind, corners)
+            self.elements.append((kind, [self.node(p) for p in places], material))
+        self.points = np.array(list(self.number)) * 1e-3
+
+    def node(self, place):
+        return self.number.setdefault(tuple(np.round(place, 9)), len(self.number) + 1)
+
+    def plane(self, axis, value):
+        return [n for p, n in self.number.items() if abs(p[axis] - value) < 1e-9]
+
+    def solve(self, held=()):
+        n = len(self.points)
+        stiffness, mass = np.zeros((3 * n, 3 * n)), np.zeros((n, n))
+        for kind, nodes, material in self.elements:
+            at = np.array(nodes) - 1
+            k, m = element(kind, self.points[at], material)
+            rows = (3 * at[:, None] + np.arange(3)).ravel()
+            stiffness[np.ix_(rows, rows)] += k
+            mass[np.ix_(at, at)] += m
+        total = mass.sum()
+        centre = mass.sum(axis=1) @ self.points / total
+        arm = self.points - centre
+        second = arm.T @ mass @ arm
+        free = [i for i in range(3 * n) if i // 3 + 1 not in set(held)]
+        omega = eigh(stiffness[np.ix_(free, free)], np.kron(mass, np.eye(3))[np.ix_(free, free)], eigvals_only=True)
+        omega = omega[0 if held else 6 :][:FREQUENCIES]
+        return {"mass": total, "centre": centre, "inertia": np.trace(second) * np.eye(3) - second,
+                "frequencies": np.sqrt(omega) / (2 * np.pi)}
+
+    # its statements
+
+    def nodes(self, first=1, last=10**9):
+        lines = [f"{n}, {p[0]:.12g}, {p[1]:.12g}, {p[2]:.12g}" for p, n in self.number.items() if first <= n <= last]
+        return "\n".join(lines) + "\n"
+
+    def lines(self, change=lambda kind, nodes: nodes):
+        text = ""
+        for number, (kind, nodes, _) in enumerate(self.elements, 1):
+            numbers = [str(n) for n in [number] + change(kind, nodes)]
+            text += ", ".join(numbers[:10]) + (",\n" + ", ".join(numbers[10:]) if len(numbers) > 10 else "") + "\n"
+        return text
+
+
+def brick(x, long=10.0):
+    return [(x + long * c[0], 10.0 * c[1], 10.0 * c[2]) for c in CORNERS["C3D20"]]
+
+
+def cut(kind, x):
+    """A brick as two wedges, or as six tetrahedra about its diagonal."""
+    b = brick(x)
+    if kind == "C3D15":
+        return [[b[i] for i in (0, 1, 2, 4, 5, 6)], [b[i] for i in (0, 2, 3, 4, 6, 7)]]
+    around = [1, 2, 3, 7, 4, 5, 1]
+    return [[b[0], b[p], b[q], b[6]] for p, q in zip(around, around[1:])]
+
+
+def bar(material=STEEL, second=None):
+    return Body([("C3D20", brick(0.0), material), ("C3D20", brick(10.0), second or material)])
+
+
+def collapsed(kind, nodes):
+    """The brick of Abaqus' order that is a wedge or a tetrahedron."""
+    n = nodes
+    if kind == "C3D15":
+        return [n[0], n[1], n[2], n[2], n[3], n[4], n[5], n[5], n[6], n[7], n[2], n[8], n[9], n[10], n[5], n[11],
+                n[12], n[13], n[14], n[14]]
+    return [n[0], n[1], n[2], n[2], n[3], n[3], n[3], n[3], n[4], n[5], n[2], n[6], n[3], n[3], n[3], n[3],
+            n[7], n[8], n[9], n[9]]
+
+
+# ---- decks ----
+
+BAR = bar()
+MATERIAL = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8E-9\n"
+SECTION = "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
+MESH = f"*NODE\n{BAR.nodes()}*ELEMENT, TYPE=C3D20, ELSET=ALL\n{BAR.lines()}"
+PLAIN = MESH + MATERIAL + SECTION
+LOW, HIGH = BAR.plane(0, 0.0), BAR.plane(0, 20.0)
+
+
+def numbers(nodes):
+    return ", ".join(map(str, nodes)) + "\n"
+
+
+def assembly(where="", further="", own=HIGH, other=LOW):
+    return (f"*Part, name=B\n{MESH}*Nset, nset=Set-1\n{numbers(own)}{SECTION}*End Part\n*Assembly, name=A\n"
+            f"*Instance, name=B-1, part=B\n{where}*End Instance\n{further}"
+            f"*Nset, nset=Set-1, instance=B-1\n{numbers(other)}*End Assembly\n{MATERIAL}")
+
+
+def of(kind, change=None, name=None):
+    body = Body([(kind, c, STEEL) for x in (0.0, 10.0) for c in cut(kind, x)])
+    lines = body.lines(change) if change else body.lines()
+    return body, f"*NODE\n{body.nodes()}*ELEMENT, TYPE={name or kind}, ELSET=ALL\n{lines}{MATERIAL}{SECTION}"
+
+
+def turned():
+    """The bar moved by (5, 0, 0) and turned by 90 degrees about z."""
+    right = BAR.solve()
+    turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    return dict(right, centre=turn @ (right["centre"] + [5e-3, 0, 0]), inertia=turn @ right["inertia"] @ turn.T)
+
+
+def right_cases():
+    """Name, files (the first is the deck), arguments, what is right, words of a warning."""
+    free, low, high = BAR.solve(), BAR.solve(LOW), BAR.solve(HIGH)
+    wedges, wedge_deck = of("C3D15")
+    tets, tet_deck = of("C3D10")
+    two = bar(STEEL, LIGHT)
+    half = BAR.nodes(1, 7)
+    rest = BAR.nodes(8)
+    elements = f"*ELEMENT, TYPE=C3D20, ELSET=ALL\n{BAR.lines()}"
+    place = "5, 0, 0\n0, 0, 0, 0, 0, 1, 90.\n"
+    second = "*Instance, name=B-2, part=B\n0, 0, 50\n*End Instance\n"
+    hold = "*NSET, NSET=FOOT\n" + numbers(LOW)
+    other = "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, OGDEN\n1, 2, 3\n"
+    part = lambda where="", further="": {"a.inp": assembly(where, further)}
+    yield "plain", {"a.inp": PLAIN}, "", free, None
+    yield "lower case, ends of lines of Windows", {"a.inp": PLAIN.lower().replace("\n", "\r\n")}, "", free, None
+    yield "no blank in a keyword", {"a.inp": PLAIN.replace("SOLID SECTION", "SOLIDSECTION")}, "", free, None
+    yield "blanks in keywords", {"a.inp": PLAIN.replace("*ELEM", "* ELEM").replace("=ALL", " = ALL")}, "", free, None
+    yield "exponents of Fortran", {"a.inp": PLAIN.replace("7.8E-9", "7.8D-9")}, "", free, None
+    yield "names in quotes", {"a.inp": PLAIN.replace("=ALL", '="my, set"')}, "", free, None
+    yield "a keyword in two lines", {"a.inp": PLAIN.replace("C3D20, ", "C3D20,\n")}, "", free, None
+    yield "the section first", {"a.inp": SECTION + PLAIN.replace(SECTION, "")}, "", free, None
+    yield "nodes twice in one place", {"a.inp": MESH + f"*NODE\n{half}" + MATERIAL + SECTION}, "", free, None
+    yield "a law that is not the body's", {"a.inp": PLAIN + other}, "", free, None
+    yield "named .msh", {"a.msh": "** a comment\n" + PLAIN}, "", free, None
+    yield "a file within the nodes", {"a.inp": f"*NODE\n{half}*INCLUDE, INPUT=\"my nodes\"\n{elements}{MATERIAL}{SECTION}",
+                                      "my nodes": rest}, "", free, None
+    yield "lines of data in a file", {"a.inp": f"*NODE, INPUT=n.txt\n{elements}{MATERIAL}{SECTION}",
+                                      "n.txt": BAR.nodes()}, "", free, None
+    yield "files beside the deck", {"a.inp": "*INCLUDE, INPUT=sub/mesh.inp\n" + MATERIAL + SECTION,
+                                    "sub/mesh.inp": "*INCLUDE, INPUT=n.inp\n" + elements,
+                                    "n.inp": "*NODE\n" + BAR.nodes(), "sub/n.inp": "*NODE\n1, 9, 9, 9\n"}, "", free, None
+    yield "a table over the temperature", {"a.inp": PLAIN.replace("0.3\n", "0.3, 20.\n1., .1, 500.\n")}, "", free, "its rows at 20"
+    yield "without a density", {"a.inp": PLAIN.replace("*DENSITY\n7.8E-9\n", "")}, "--density 7800", free, None
+    yield "without an elasticity", {"a.inp": PLAIN.replace("*ELASTIC\n210000., 0.3\n", "")}, "--young 210GPa --poisson .3", free, None
+    yield "two materials", {"a.inp": PLAIN.replace(SECTION, "*ELSET, ELSET=L\n1\n*ELSET, ELSET=R\n2\n"
+                            "*MATERIAL, NAME=AL\n*ELASTIC\n70000, .33\n*DENSITY\n2.7e-9\n*SOLID SECTION, ELSET=L, MATERIAL=steel\n"
+                            "*SOLID SECTION, ELSET=R, MATERIAL=al\n")}, "", two.solve(), None
+    yield "tetrahedra", {"a.inp": tet_deck}, "", tets.solve(), None
+    yield "wedges", {"a.inp": wedge_deck}, "", wedges.solve(), None
+    yield "bricks that are wedges", {"a.inp": of("C3D15", collapsed, "C3D20R")[1]}, "", wedges.solve(), None
+    yield "bricks that are tetrahedra", {"a.inp": of("C3D10", collapsed, "C3D20")[1]}, "", tets.solve(), None
+    yield "an instance in its own frame", part(), "", free, None
+    yield "an instance moved and turned", part(place), "", turned(), None
+    yield "one of two instances", part(place, second), "--instance B-1", turned(), None
+    yield "held by a part's set", part(), "--fixed B.Set-1", high, None
+    yield "held by an instance's set", part(), "--fixed b-1.set-1", high, None
+    yield "held by the assembly's set", part(), "--fixed A.Set-1", low, None
+    yield "held by two sets alike", {"a.inp": assembly(own=LOW)}, "--fixed Set-1", low, None
+    yield "a set before what it names", {"a.inp": "*NSET, NSET=F\nFOOT\n" + PLAIN + hold}, "--fixed F", low, None
+    yield "a set that leads down", {"a.inp": PLAIN + hold.replace("\n", ", GENERATE\n", 1).replace(numbers(LOW), "".join(
+        f"{n}, {n}, -1\n" for n in LOW))}, "--fixed foot", low, None
+    yield "the nodes of elements", {"a.inp": PLAIN + "*ELEMENT, TYPE=S8, ELSET=SH\n9, " + numbers(LOW[:8]) +
+                                    "*NSET, NSET=F, ELSET=SH\n"}, "--fixed F", low, None
+    yield "a surface", {"a.inp": PLAIN + "*SURFACE, NAME=F\n1, S6\n"}, "--fixed F", low, None
+    yield "a support", {"a.inp": PLAIN + hold + "*STEP\n*STATIC\n*BOUNDARY\nFOOT, 1, 3\n*END STEP\n"}, "", free, "--fixed FOOT holds it"
+    yield "a mass", {"a.inp": PLAIN + "*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n*MASS, ELSET=M\n1e-3\n"}, "", free, "is lighter by them"
+
+
+def damaged_cases():
+    """Name, deck, arguments, words of the refusal."""
+    last = numbers(BAR.elements[1][1][-1:])
+    yield "a set of several scopes", assembly(), "--fixed Set-1", "B.Set-1 (nodes), 8 nodes; A.Set-1 (nodes), 8 nodes"
+    yield "two bodies", assembly(further="*Instance, name=B-2, part=B\n9\n*End Instance\n"), "", "2 bodies (B-1, B-2)"
+    yield "no such file", "*INCLUDE, INPUT=none.inp\n" + PLAIN, "", "a.inp:1: *INCLUDE: INPUT=none.inp: No such file"
+    yield "no density", PLAIN.replace("*DENSITY\n7.8E-9\n", ""), "", "NAME=STEEL has no *DENSITY"
+    yield "no such material", PLAIN.replace("NAME=STEEL", "NAME=IRON"), "", "there is no *MATERIAL, NAME=STEEL"
+    yield "no such set", PLAIN.replace("ELSET=ALL, M", "ELSET=NONE, M"), "", "NONE: must be the name of a set of elements"
+    yield "linear elements", PLAIN.replace("C3D20", "C3D8"), "", "must be of second order"
+    yield "two places of a node", MESH + "*NODE\n1, 0, 0, 5\n" + MATERIAL + SECTION, "", "node 1: is there twice, at"
+    yield "two elements of a number", PLAIN + MESH[MESH.index("*ELEMENT"):], "", "element 1: is there twice"
+    yield "a node that is not there", PLAIN.replace(" " + last, " 999\n", 1), "", "node 999: must be one of the file's nodes"
+    yield "a node too few", PLAIN.replace(", " + last, "\n", 1), "", "has 19 nodes: must have more"
+    yield "nodes to be made", PLAIN + "*NGEN\n1, 9\n", "", "*NGEN: is not read"
+    yield "another law", PLAIN.replace("*ELASTIC", "*HYPERELASTIC"), "", "*HYPERELASTIC: is not read: must be *ELASTIC"
+    yield "a density in kg/m^3", PLAIN.replace("7.8E-9", "7800"), "", "is the unit of length right?"
+    yield "a set that names itself", PLAIN + "*NSET, NSET=P\nQ\n*NSET, NSET=Q\nP\n", "", "must not name itself"
+    yield "no deck", "a letter\n" + PLAIN, "", "a.inp:1: must begin with a keyword"
+
+
+def run(files, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+            with open(os.path.join(folder, name), "w", newline="") as file:
+                file.write(text)
+        command = [REDUCE, next(iter(files)), "--unit", "mm", "-n", str(FREQUENCIES), "-o", "o.h5", "--json"]
+        return subprocess.run(command + arguments.split(), cwd=folder, capture_output=True, text=True, timeout=60)
+
+
+def differences(answer, right):
+    got = json.loads(answer)
+    for key in ("mass", "centre", "inertia", "frequencies"):
+        expected = np.ravel(right[key])
+        values = np.array(got[key]).ravel()[: len(expected)]
+        error = np.max(np.abs(values - expected)) / np.max(np.abs(expected))
+        if not error < WITHIN:
+            yield f"{key} {values} is not {expected} ({error:.1e})"
+
+
+def judge(name, wrong):
+    print(f"{'MISSED ' if wrong else ''}{name}{': ' if wrong else ''}{'; '.join(wrong)}", flush=True)
+    if wrong:
+        failed.append(name)
+
+
+count = 0
+for name, files, arguments, right, warning in right_cases():
+    done = run(files, arguments)
+    wrong = [done.stderr.strip()] if done.returncode else list(differences(done.stdout, right))
+    told = [] if done.returncode else json.loads(done.stdout)["warnings"]
+    if not wrong and (not any(warning in line for line in told) if warning else told):
+        wrong = [f"tells {told}, should tell {warning}"]
+    judge(name, wrong)
+    count += 1
+for name, deck, arguments, words in damaged_cases():
+    done = run({"a.inp": deck}, arguments)
+    judge(name, [] if done.returncode == 1 and words in done.stderr else [f"{done.returncode}: {done.stderr.strip()}"])
+    count += 1
+print(f"{count} decks, {len(failed)} missed")
+sys.exit(1 if failed else 0)
