@@ -143,6 +143,9 @@ bool deck_tell(struct deck *deck, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7F)
+            *c = '?';
     for (size_t i = 0; i < deck->remark_count; i++)
         if (strcmp(deck->remarks[i], text) == 0)
             return true;

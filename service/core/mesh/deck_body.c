@@ -297,7 +297,8 @@ static enum percuss_status resolve_item(const struct body *body, const struct de
     bool here = item->instance == DECK_NONE ? is_inside(body, set->scope)
                                             : deck_same(body->deck->names[item->instance],
                                                         body->deck->scopes[body->instance].name);
-    for (size_t k = item->first; here && k <= item->last; k += item->step)
+    size_t last = here ? (item->last - item->first) / item->step : 0;
+    for (size_t i = 0, k = item->first; here && i <= last; i++, k += item->step)
         if (!(item->kind == DECK_FACES ? add_nodes(body, k, item->face, labels)
                                        : builder_append(labels, k)))
             return body_out_of_memory(body);
