@@ -113,6 +113,9 @@ static enum percuss_status inp_read_element(struct inp *inp, char *line)
         if (inp->filled == most)
             return scan_refuse(inp->scan, "*ELEMENT: %zu: must have %zu nodes", inp->element.label,
                                most);
+        /* elements of networks have ends without a node */
+        if (!wanted && strcmp(field, "0") == 0)
+            continue;
         if (!card_label(inp->scan, "*ELEMENT", field, &inp->nodes[inp->filled]))
             return PERCUSS_BAD_REQUEST;
         inp->filled++;
