@@ -11,7 +11,7 @@
 static const int ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
-/* adds `scale` times gradient and second derivatives of ln(R + z), z = x.e */
+/* adds `scale` times gradient and second derivatives (NULL: not wanted) of ln(R + z), z = x.e */
 static void add_logarithm(double scale, const double x[3], const double e[3], double gradient[3],
                           double second[6])
 {
@@ -22,6 +22,8 @@ static void add_logarithm(double scale, const double x[3], const double e[3], do
         slope[i] = (x[i] / distance + e[i]) / sum;
         gradient[i] += scale * slope[i];
     }
+    if (!second)
+        return;
     double along = 1.0 / (distance * sum), round = along / (distance * distance);
     for (int k = 0; k < 6; k++) {
         int i = ROW[k], j = COLUMN[k];
@@ -34,7 +36,8 @@ static void logarithms(const struct boussinesq3 *load, const double x[3], double
                        double second[6])
 {
     memset(gradient, 0, 3 * sizeof *gradient);
-    memset(second, 0, 6 * sizeof *second);
+    if (second)
+        memset(second, 0, 6 * sizeof *second);
     if (isinf(load->reach)) {
         add_logarithm(1.0, x, load->inward, gradient, second);
         return;
@@ -63,7 +66,7 @@ void boussinesq3_field(const struct boussinesq3 *load, const double x[3], double
     double z = dot3(r, e), square = dot3(r, r);
     double inverse = 1.0 / sqrt(square), cube = inverse / square;
     double gradient[3], second[6];
-    logarithms(load, r, gradient, second);
+    logarithms(load, r, gradient, stress ? second : NULL);
 
     if (displacement) {
         double scale = (1.0 + poisson) / (2.0 * M_PI * load->young);

@@ -22,8 +22,8 @@ static const double QUAD_NODES[9][2] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0,
                                         {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
 static const double TRIANGLE_NODES[6][2] = {{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}};
 
-/* in L0 = 1 - u - v, L1 = u, L2 = v: corners L(2L - 1), mid nodes 4 L L' */
-static void triangle_shape(double u, double v, double d[KINDS][FACET_MOST_NODES])
+/* in L0 = 1 - u - v, L1 = u, L2 = v: corners L(2L - 1), mid nodes 4 L L'; the first `kinds` */
+static void triangle_shape(double u, double v, int kinds, double d[KINDS][FACET_MOST_NODES])
 {
     const double l[3] = {1.0 - u - v, u, v};
     static const double SLOPE[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
@@ -33,9 +33,6 @@ static void triangle_shape(double u, double v, double d[KINDS][FACET_MOST_NODES]
         d[VALUE][i] = l[i] * (2.0 * l[i] - 1.0);
         d[U][i] = (4.0 * l[i] - 1.0) * s[0];
         d[V][i] = (4.0 * l[i] - 1.0) * s[1];
-        d[UU][i] = 4.0 * s[0] * s[0];
-        d[UV][i] = 4.0 * s[0] * s[1];
-        d[VV][i] = 4.0 * s[1] * s[1];
 
         /* the mid node after it */
         int j = (i + 1) % 3;
@@ -43,52 +40,61 @@ static void triangle_shape(double u, double v, double d[KINDS][FACET_MOST_NODES]
         d[VALUE][3 + i] = 4.0 * l[i] * l[j];
         d[U][3 + i] = 4.0 * (s[0] * l[j] + l[i] * t[0]);
         d[V][3 + i] = 4.0 * (s[1] * l[j] + l[i] * t[1]);
+        if (kinds < KINDS)
+            continue;
+        d[UU][i] = 4.0 * s[0] * s[0];
+        d[UV][i] = 4.0 * s[0] * s[1];
+        d[VV][i] = 4.0 * s[1] * s[1];
         d[UU][3 + i] = 8.0 * s[0] * t[0];
         d[UV][3 + i] = 4.0 * (s[0] * t[1] + s[1] * t[0]);
         d[VV][3 + i] = 8.0 * s[1] * t[1];
     }
 }
 
-/* the parabola that is 1 at `node` (-1, 0, 1) and 0 at the others; value and two derivatives */
-static void parabola(double node, double x, double f[3])
+/* the parabolas that are 1 at -1, 0, 1 and 0 at the others; value and two derivatives */
+static void parabolas(double x, double f[3][3])
 {
-    f[0] = node == 0.0 ? 1.0 - x * x : 0.5 * x * (x + node);
-    f[1] = node == 0.0 ? -2.0 * x : x + 0.5 * node;
-    f[2] = node == 0.0 ? -2.0 : 1.0;
-}
-
-/* products of parabolas; without a node in the middle its value is spread over the others, which
- * are there -1/4 (corners) and 1/2 (mid nodes) */
-static void quad_shape(int count, double u, double v, double d[KINDS][FACET_MOST_NODES])
-{
-    for (int i = 0; i < 9; i++) {
-        double f[3], g[3];
-        parabola(QUAD_NODES[i][0], u, f);
-        parabola(QUAD_NODES[i][1], v, g);
-        d[VALUE][i] = f[0] * g[0];
-        d[U][i] = f[1] * g[0];
-        d[V][i] = f[0] * g[1];
-        d[UU][i] = f[2] * g[0];
-        d[UV][i] = f[1] * g[1];
-        d[VV][i] = f[0] * g[2];
+    for (int node = -1; node <= 1; node++) {
+        double *g = f[node + 1];
+        g[0] = node == 0 ? 1.0 - x * x : 0.5 * x * (x + node);
+        g[1] = node == 0 ? -2.0 * x : x + 0.5 * node;
+        g[2] = node == 0 ? -2.0 : 1.0;
     }
-    for (int i = 0; count == 8 && i < 8; i++)
-        for (int k = 0; k < KINDS; k++)
-            d[k][i] += (i < 4 ? -0.25 : 0.5) * d[k][8];
 }
 
-static void shape(int count, double u, double v, double d[KINDS][FACET_MOST_NODES])
+/* products of parabolas, the first `kinds`; without a node in the middle its value is spread over
+ * the others, which are there -1/4 (corners) and 1/2 (mid nodes) */
+static void quad_shape(int count, double u, double v, int kinds, double d[KINDS][FACET_MOST_NODES])
+{
+    /* derivatives along u and v of each kind */
+    static const int ORDER[KINDS][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+    /* the parabolas of each node */
+    static const int ROW[9] = {0, 2, 2, 0, 1, 2, 1, 0, 1}, COLUMN[9] = {0, 0, 2, 2, 0, 1, 2, 1, 1};
+    double f[3][3], g[3][3];
+    parabolas(u, f);
+    parabolas(v, g);
+    for (int k = 0; k < kinds; k++) {
+        int a = ORDER[k][0], b = ORDER[k][1];
+        for (int i = 0; i < 9; i++)
+            d[k][i] = f[ROW[i]][a] * g[COLUMN[i]][b];
+        for (int i = 0; count == 8 && i < 8; i++)
+            d[k][i] += (i < 4 ? -0.25 : 0.5) * d[k][8];
+    }
+}
+
+/* the first `kinds` of them */
+static void shape(int count, double u, double v, int kinds, double d[KINDS][FACET_MOST_NODES])
 {
     if (count == 6)
-        triangle_shape(u, v, d);
+        triangle_shape(u, v, kinds, d);
     else
-        quad_shape(count, u, v, d);
+        quad_shape(count, u, v, kinds, d);
 }
 
 void facet_shape(int count, double u, double v, double *n, double *du, double *dv)
 {
     double d[KINDS][FACET_MOST_NODES];
-    shape(count, u, v, d);
+    shape(count, u, v, du || dv ? V + 1 : VALUE + 1, d);
     memcpy(n, d[VALUE], (size_t)count * sizeof *n);
     if (du)
         memcpy(du, d[U], (size_t)count * sizeof *du);
@@ -103,16 +109,23 @@ void facet_node(int count, int node, double *u, double *v)
     *v = at[1];
 }
 
+/* sums over the nodes by each kind of shape functions */
+static void sum_nodes(int count, const double (*points)[3], int kinds,
+                      double d[KINDS][FACET_MOST_NODES], double (*x)[3])
+{
+    memset(x, 0, (size_t)kinds * sizeof *x);
+    for (int k = 0; k < kinds; k++)
+        for (int i = 0; i < count; i++)
+            add_scaled3(d[k][i], points[i], x[k]);
+}
+
 /* the point and its derivatives, x[VALUE] .., the first `kinds` of them */
 static void place(int count, const double (*points)[3], double u, double v, int kinds,
                   double (*x)[3])
 {
     double d[KINDS][FACET_MOST_NODES];
-    shape(count, u, v, d);
-    memset(x, 0, (size_t)kinds * sizeof *x);
-    for (int k = 0; k < kinds; k++)
-        for (int i = 0; i < count; i++)
-            add_scaled3(d[k][i], points[i], x[k]);
+    shape(count, u, v, kinds, d);
+    sum_nodes(count, points, kinds, d, x);
 }
 
 void facet_place(int count, const double (*points)[3], double u, double v, double point[3],
@@ -124,6 +137,17 @@ void facet_place(int count, const double (*points)[3], double u, double v, doubl
         memcpy(point, x[VALUE], sizeof x[VALUE]);
     if (area)
         cross3(x[U], x[V], area);
+}
+
+void facet_look(int count, const double (*points)[3], double u, double v, double *n,
+                double point[3], double area[3])
+{
+    double d[KINDS][FACET_MOST_NODES], x[V + 1][3];
+    shape(count, u, v, V + 1, d);
+    sum_nodes(count, points, V + 1, d, x);
+    memcpy(n, d[VALUE], (size_t)count * sizeof *n);
+    memcpy(point, x[VALUE], sizeof x[VALUE]);
+    cross3(x[U], x[V], area);
 }
 
 bool facet_is_inside(int count, double u, double v, double margin)

@@ -30,6 +30,10 @@ void facet_node(int count, int node, double *u, double *v);
 void facet_place(int count, const double (*points)[3], double u, double v, double point[3],
                  double area[3]);
 
+/* Shape functions with point and area at once. */
+void facet_look(int count, const double (*points)[3], double u, double v, double *n,
+                double point[3], double area[3]);
+
 /* Whether it is on the face, or beyond its edges by no more than `margin`. */
 bool facet_is_inside(int count, double u, double v, double margin);
 
