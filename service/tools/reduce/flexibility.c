@@ -18,9 +18,10 @@
 /* The rule of degree 6 is good to 1e-8 of a field that changes with the distance from the place,
  * where that is as many radii of a triangle; nearer ones are split. */
 static const double SURFACE_FAR = 6.0;
-/* Triangles of this part of a face or smaller are not split any more: where the place lies within
- * one the face is plane, t bounded and u like 1/r, and the error is the part of a part. */
-enum { SURFACE_SPLITS = 7 };
+/* Halvings of a triangle, each across its longest side, so that a slender one takes as many more as
+ * the logarithm of its slenderness. Smaller ones are not split any more: where the place lies
+ * within one the face is plane, t bounded and u like 1/r, and the error is the part of a part. */
+enum { SURFACE_SPLITS = 20 };
 
 /* sums for one place and face */
 struct surface_sum {
@@ -47,49 +48,78 @@ static void surface_add_point(struct surface_sum *sum, const double at[2], doubl
                               bool with_force, bool with_energy)
 {
     double x[3], area[3], traction[3], displacement[3], shape[FACE_MOST_NODES];
-    facet_place(sum->count, sum->nodes, at[0], at[1], x, area);
+    facet_look(sum->count, sum->nodes, at[0], at[1], shape, x, area);
     surface_look(sum->place, sum->in_plane, x, area, traction, displacement);
     if (with_energy)
         sum->energy += weight * dot3(traction, displacement);
     if (!with_force)
         return;
-    facet_shape(sum->count, at[0], at[1], shape, NULL, NULL);
     for (int n = 0; n < sum->count; n++)
         add_scaled3(weight * shape[n], traction, sum->forces[n]);
 }
 
-/* a triangle that is split until it is small beside its distance */
-static void surface_add_triangle(struct surface_sum *sum, const struct surface_triangle *triangle,
-                                 int splits)
-{
-    /* its centre, and a radius that holds it */
-    double middle[2] = {0.0, 0.0}, centre[3], radius = 0.0, offset[3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 2; k++)
-            middle[k] += triangle->corners[i][k] / 3.0;
-    facet_place(sum->count, sum->nodes, middle[0], middle[1], centre, NULL);
-    for (int i = 0; i < 3; i++) {
-        double corner[3];
-        facet_place(sum->count, sum->nodes, triangle->corners[i][0], triangle->corners[i][1],
-                    corner, NULL);
-        sub3(corner, centre, corner);
-        radius = fmax(radius, norm3(corner));
-    }
-    sub3(centre, sum->place->load.point, offset);
+/* a triangle of a face, in local coordinates and in space */
+struct surface_part {
+    struct surface_triangle local;
+    double points[3][3];
+};
 
-    /* near: by quarters */
+/* the two halves on both sides of the middle of its longest side */
+static void surface_halve(const struct surface_sum *sum, const struct surface_part *part,
+                          struct surface_part halves[2])
+{
+    double longest = -1.0, middle[2], between[3];
+    int from = 0;
+    for (int i = 0; i < 3; i++) {
+        double side[3];
+        sub3(part->points[(i + 1) % 3], part->points[i], side);
+        if (dot3(side, side) > longest) {
+            longest = dot3(side, side);
+            from = i;
+        }
+    }
+    int to = (from + 1) % 3;
+    for (int k = 0; k < 2; k++)
+        middle[k] = 0.5 * (part->local.corners[from][k] + part->local.corners[to][k]);
+    facet_place(sum->count, sum->nodes, middle[0], middle[1], between, NULL);
+    /* it takes the place of one end in each half */
+    for (int half = 0; half < 2; half++) {
+        int end = half == 0 ? to : from;
+        halves[half] = *part;
+        memcpy(halves[half].local.corners[end], middle, sizeof middle);
+        memcpy(halves[half].points[end], between, sizeof between);
+    }
+}
+
+/* a triangle that is split until it is small beside its distance */
+static void surface_add_part(struct surface_sum *sum, const struct surface_part *part, int splits)
+{
+    /* near: by halves */
+    double centre[3], offset[3];
+    struct surface_part whole = *part;
+    double radius = surface_rule_sphere(3, whole.points, centre);
+    sub3(centre, sum->place->load.point, offset);
     if (norm3(offset) < SURFACE_FAR * radius && splits < SURFACE_SPLITS) {
-        struct surface_triangle parts[4];
-        surface_rule_split(triangle, parts);
-        for (int i = 0; i < 4; i++)
-            surface_add_triangle(sum, &parts[i], splits + 1);
+        struct surface_part halves[2];
+        surface_halve(sum, part, halves);
+        for (int i = 0; i < 2; i++)
+            surface_add_part(sum, &halves[i], splits + 1);
         return;
     }
     /* far: by the rule */
     double at[SURFACE_RULE_POINTS][2], weights[SURFACE_RULE_POINTS];
-    surface_rule_place(triangle, at, weights);
+    surface_rule_place(&part->local, at, weights);
     for (int p = 0; p < SURFACE_RULE_POINTS; p++)
         surface_add_point(sum, at[p], weights[p], true, true);
+}
+
+static void surface_add_triangle(struct surface_sum *sum, const struct surface_triangle *triangle)
+{
+    struct surface_part part = {.local = *triangle};
+    for (int i = 0; i < 3; i++)
+        facet_place(sum->count, sum->nodes, triangle->corners[i][0], triangle->corners[i][1],
+                    part.points[i], NULL);
+    surface_add_part(sum, &part, 0);
 }
 
 /* Gauss' points and weights on 0 .. 1, by Newton's method on Legendre's polynomial */
@@ -187,7 +217,7 @@ static void surface_add_near(const struct surface_rule *rule, size_t face, struc
         struct surface_triangle triangles[2];
         size_t count = surface_rule_triangles((size_t)sum->count, triangles);
         for (size_t t = 0; t < count; t++)
-            surface_add_triangle(sum, &triangles[t], 0);
+            surface_add_triangle(sum, &triangles[t]);
     }
     sum->nodes = NULL;
 }
@@ -233,6 +263,9 @@ static double flexibility_surface_add(const struct surface_rule *rule,
  * like 1/r, matter by (h / body)^2 to the whole, and 1e-3 of that is left. */
 static const double VOLUME_FAR = 2.0;
 enum { VOLUME_SPLITS = 2 };
+/* Beyond so many radii the displacements at the nodes stand for all in an element: its shape
+ * functions leave (radius / distance)^3 of them and less. */
+static const double VOLUME_NODES = 6.0;
 static const int STRAIN_ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int STRAIN_COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
@@ -243,6 +276,8 @@ struct volume_rule {
     size_t *first;       /* [element_count + 1]: an element's points are points[first[e]] .. */
     double (*points)[4]; /* place, volume: m, m^3 */
     double (*centres)[3], *radii; /* [element_count], m */
+    size_t *first_mass; /* [element_count + 1]: an element's masses are masses[first_mass[e]] .. */
+    double *masses;     /* integral of rho N_i N_j, by rows up to the diagonal, kg */
 };
 
 static void volume_rule_free(struct volume_rule *rule)
@@ -252,6 +287,8 @@ static void volume_rule_free(struct volume_rule *rule)
     free(rule->points);
     free(rule->centres);
     free(rule->radii);
+    free(rule->first_mass);
+    free(rule->masses);
     *rule = (struct volume_rule){0};
 }
 
@@ -270,30 +307,47 @@ static void volume_fill_element(struct volume_rule *rule, size_t element)
         point[3] = here.volume;
     }
     rule->radii[element] = surface_rule_sphere(points->node_count, nodes, rule->centres[element]);
+
+    /* masses between its nodes */
+    double density = mesh->part[mesh->parts[element]].material.density;
+    double *mass = rule->masses + rule->first_mass[element];
+    for (size_t i = 0; i < points->node_count; i++)
+        for (size_t j = 0; j <= i; j++, mass++) {
+            *mass = 0.0;
+            for (size_t p = 0; p < points->point_count; p++)
+                *mass += density * rule->points[rule->first[element] + p][3] * points->shape[p][i] *
+                         points->shape[p][j];
+        }
 }
 
 static bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
 {
     /* arrays with one entry an element */
-    size_t count = mesh->element_count, total = 0;
+    size_t count = mesh->element_count, total = 0, masses = 0;
     *rule = (struct volume_rule){.mesh = mesh};
     rule->rules = malloc(ELEMENT_TYPES * sizeof *rule->rules);
     rule->first = malloc((count + 1) * sizeof *rule->first);
     rule->centres = malloc(count * sizeof *rule->centres);
     rule->radii = malloc(count * sizeof *rule->radii);
-    if (!rule->rules || !rule->first || !rule->centres || !rule->radii)
+    rule->first_mass = malloc((count + 1) * sizeof *rule->first_mass);
+    if (!rule->rules || !rule->first || !rule->centres || !rule->radii || !rule->first_mass)
         goto no_memory;
-    /* where the points of each element begin */
+    /* where the points of each element begin, and its masses */
     for (int type = 0; type < ELEMENT_TYPES; type++)
         element_rule_make((enum element_type)type, &rule->rules[type]);
     for (size_t e = 0; e < count; e++) {
         rule->first[e] = total;
         total += rule->rules[mesh->types[e]].point_count;
+        size_t nodes = rule->rules[mesh->types[e]].node_count;
+        rule->first_mass[e] = masses;
+        masses += nodes * (nodes + 1) / 2;
     }
     rule->first[count] = total;
-    /* the points */
+    rule->first_mass[count] = masses;
+    /* points and masses */
     rule->points = malloc(total * sizeof *rule->points);
-    if (!rule->points)
+    rule->masses = malloc(masses * sizeof *rule->masses);
+    if (!rule->points || !rule->masses)
         goto no_memory;
     for (size_t e = 0; e < count; e++)
         volume_fill_element(rule, e);
@@ -429,10 +483,9 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
         add_mass_point(sum, here[p].position, scale * rule->weight[p] * here[p].volume, shapes[p]);
 }
 
-/* Adds the field's displacements u as mass feels them, the integral of rho N^T u, to momentum
- * ([3 node_count], kg m/N). */
-static void flexibility_volume_add_mass(const struct volume_rule *rule,
-                                        const struct flexibility_place *place, double *momentum)
+/* momentum of an element by its own points, in pieces where it is near */
+static void add_near_mass(const struct volume_rule *rule, const struct flexibility_place *place,
+                          size_t element, double distance, double *momentum)
 {
     static const struct piece WHOLE[ELEMENT_TYPES] = {
         {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -440,24 +493,60 @@ static void flexibility_volume_add_mass(const struct volume_rule *rule,
         {{{-1, -1, -1}, {1, 1, 1}}},
         {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}}}};
     const struct solid_mesh *mesh = rule->mesh;
-    for (size_t e = 0; e < mesh->element_count; e++) {
-        enum element_type type = mesh->types[e];
-        double nodes[ELEMENT_MOST_NODES][3], offset[3];
-        struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{0.0}}};
-        /* near elements in pieces, far ones by their own points */
-        sub3(rule->centres[e], place->load.point, offset);
-        if (norm3(offset) < VOLUME_FAR * rule->radii[e]) {
-            element_points(mesh, e, nodes);
-            add_piece(&sum, &WHOLE[type], 1.0, 0);
-        } else {
-            for (size_t i = rule->first[e]; i < rule->first[e + 1]; i++)
-                add_mass_point(&sum, rule->points[i], rule->points[i][3],
-                               sum.rule->shape[i - rule->first[e]]);
+    enum element_type type = mesh->types[element];
+    double nodes[ELEMENT_MOST_NODES][3];
+    struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{0.0}}};
+    if (distance < VOLUME_FAR * rule->radii[element]) {
+        element_points(mesh, element, nodes);
+        add_piece(&sum, &WHOLE[type], 1.0, 0);
+    } else {
+        size_t first = rule->first[element], end = rule->first[element + 1];
+        for (size_t i = first; i < end; i++)
+            add_mass_point(&sum, rule->points[i], rule->points[i][3], sum.rule->shape[i - first]);
+    }
+    /* to the nodes, as momentum */
+    double density = mesh->part[mesh->parts[element]].material.density;
+    for (size_t n = 0; n < sum.rule->node_count; n++)
+        add_scaled3(density, sum.sums[n], momentum + 3 * mesh->nodes[mesh->first[element] + n]);
+}
+
+/* momentum of an element by its nodes' displacements, [3 node_count] */
+static void add_far_mass(const struct volume_rule *rule, size_t element,
+                         const double *displacements, double *momentum)
+{
+    const size_t *nodes = rule->mesh->nodes + rule->mesh->first[element];
+    const double *mass = rule->masses + rule->first_mass[element];
+    size_t count = rule->rules[rule->mesh->types[element]].node_count;
+    double u[ELEMENT_MOST_NODES][3], sums[ELEMENT_MOST_NODES][3] = {{0.0}};
+    for (size_t i = 0; i < count; i++) {
+        memcpy(u[i], displacements + 3 * nodes[i], sizeof u[i]);
+        for (size_t j = 0; j < i; j++, mass++) {
+            add_scaled3(*mass, u[j], sums[i]);
+            add_scaled3(*mass, u[i], sums[j]);
         }
-        /* to the nodes, as momentum */
-        double density = mesh->part[mesh->parts[e]].material.density;
-        for (size_t n = 0; n < sum.rule->node_count; n++)
-            add_scaled3(density, sum.sums[n], momentum + 3 * mesh->nodes[mesh->first[e] + n]);
+        add_scaled3(*mass++, u[i], sums[i]);
+    }
+    for (size_t i = 0; i < count; i++)
+        add_scaled3(1.0, sums[i], momentum + 3 * nodes[i]);
+}
+
+/* Adds the field's displacements u as mass feels them, the integral of rho N^T u, to momentum
+ * ([3 node_count], kg m/N). `spare` is as large. */
+static void flexibility_volume_add_mass(const struct volume_rule *rule,
+                                        const struct flexibility_place *place, double *momentum,
+                                        double *spare)
+{
+    const struct solid_mesh *mesh = rule->mesh;
+    for (size_t n = 0; n < mesh->node_count; n++)
+        boussinesq3_field(&place->load, mesh->points[n], spare + 3 * n, NULL);
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        double offset[3];
+        sub3(rule->centres[e], place->load.point, offset);
+        double distance = norm3(offset);
+        if (distance < VOLUME_NODES * rule->radii[e])
+            add_near_mass(rule, place, e, distance, momentum);
+        else
+            add_far_mass(rule, e, spare, momentum);
     }
 }
 
@@ -596,8 +685,9 @@ static double flexibility_volume_add_shifts(const struct volume_rule *rule, cons
 /* Nodal forces out of balance by more than this part of the force mean a surface that is not
  * closed or not the mesh's own; quadrature leaves less than 1e-7. */
 static const double MOST_IMBALANCE = 1e-6;
-/* Iterations end when a step does this part of the work: the error then is of its square. */
-static const double SMALLEST_STEP = 1e-6;
+/* Iterations end when a step does this part of the work: the error of the work then is of its
+ * square, that of responses elsewhere of its order, both far below what interpolation leaves. */
+static const double SMALLEST_STEP = 1e-4;
 /* a step leaves shift / (shift + next eigenvalue), at most half with a shift at the first one */
 enum { MOST_STEPS = 60 };
 
@@ -610,8 +700,10 @@ struct flexibility {
     struct volume_rule volume;
     struct flexibility_edges edges;
     /* of the block that is solved: [FLEXIBILITY_BLOCK][n] */
-    double *force, *x, *work, *mass_x, *rest; /* w = x + rest */
-    double *products;                         /* [2][FLEXIBILITY_BLOCK][psi_count] */
+    double *force, *x, *work, *mass_x;
+    double *shifts;   /* of held nodes: w1 */
+    double *products; /* [2][FLEXIBILITY_BLOCK][psi_count] */
+    double *momenta;  /* [FLEXIBILITY_BLOCK][psi_count]: g */
     struct flexibility_place places[FLEXIBILITY_BLOCK];
 };
 
@@ -643,11 +735,12 @@ struct flexibility *flexibility_make(const struct flexibility_body *body)
     f->x = malloc(block * sizeof *f->x);
     f->work = malloc(block * sizeof *f->work);
     f->mass_x = malloc(block * sizeof *f->mass_x);
-    f->rest = malloc(block * sizeof *f->rest);
+    f->shifts = malloc(block * sizeof *f->shifts);
+    f->momenta = malloc((FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->momenta);
     f->products = malloc((2 * FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->products);
     /* rules of integration over surface and volume */
-    if (!f->psi || !f->mass_psi || !f->force || !f->x || !f->work || !f->mass_x || !f->rest ||
-        !f->products || !surface_rule_make(&f->surface, body->mesh, body->surface) ||
+    if (!f->psi || !f->mass_psi || !f->force || !f->x || !f->work || !f->mass_x || !f->shifts ||
+        !f->products || !f->momenta || !surface_rule_make(&f->surface, body->mesh, body->surface) ||
         !volume_rule_make(&f->volume, body->mesh) ||
         !flexibility_edges_make(&f->edges, &f->surface)) {
         flexibility_free(f);
@@ -676,7 +769,8 @@ void flexibility_free(struct flexibility *flexibility)
     free(flexibility->x);
     free(flexibility->work);
     free(flexibility->mass_x);
-    free(flexibility->rest);
+    free(flexibility->shifts);
+    free(flexibility->momenta);
     free(flexibility->products);
     free(flexibility);
 }
@@ -725,10 +819,10 @@ static double hold_nodes(const struct flexibility *f, const struct flexibility_p
     return value;
 }
 
-/* integrals of the half-space's field: nodal forces, the momenta of the mass, w without x and Psi;
+/* integrals of the half-space's field: nodal forces, the momenta of the mass, shifts of held nodes;
  * returns C without their parts */
 static double integrate_field(const struct flexibility *f, const struct flexibility_place *place,
-                              double *force, double *momentum, double *rest)
+                              double *force, double *momentum, double *shifts)
 {
     memset(force, 0, f->n * sizeof *force);
     memset(momentum, 0, f->n * sizeof *momentum);
@@ -736,11 +830,11 @@ static double integrate_field(const struct flexibility *f, const struct flexibil
                    flexibility_surface_add(&f->surface, place, force);
     if (f->body.mesh->part_count > 1)
         value += flexibility_volume_add_parts(&f->volume, place, force);
-    flexibility_volume_add_mass(&f->volume, place, momentum);
-    return value + hold_nodes(f, place, force, momentum, rest);
+    flexibility_volume_add_mass(&f->volume, place, momentum, shifts);
+    return value + hold_nodes(f, place, force, momentum, shifts);
 }
 
-/* Forces of all columns without Psi, and w without x. Rigid motions balance a free body: f has the
+/* Forces of all columns without Psi, and g. Rigid motions balance a free body: f has the
  * work p on them. */
 static void prepare_columns(struct flexibility *f, size_t count, struct flexibility_terms *terms)
 {
@@ -749,11 +843,11 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
     double *all_own = f->products, *all_g = all_own + FLEXIBILITY_BLOCK * psi_count;
     for (size_t c = 0; c < count; c++)
         terms[c].value =
-            integrate_field(f, &f->places[c], f->force + c * n, f->work + c * n, f->rest + c * n);
+            integrate_field(f, &f->places[c], f->force + c * n, f->work + c * n, f->shifts + c * n);
     dense_products(psi, (struct dense){n, count, f->force}, all_own);
     dense_products(psi, (struct dense){n, count, f->work}, all_g);
     dense_combine(mass_psi, -1.0, all_own, 1.0, count, f->force);
-    dense_combine(psi, -1.0, all_g, 1.0, count, f->rest);
+    memcpy(f->momenta, all_g, count * psi_count * sizeof *f->momenta);
 
     /* the modes' part of C */
     for (size_t c = 0; c < count; c++) {
@@ -774,8 +868,9 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
     }
 }
 
-/* One step for all columns: (K + s M) y = f + s M x, y without Psi, then x = y. Adds s x.M (y - x)
- * to f.y: its error is then of the square of y's; `work` and `step` are those two terms. */
+/* One step for all columns: (K + s M) y = f + s M x, then x = y. Adds s x.M (y - x) to f.y: its
+ * error is then of the square of y's; `work` and `step` are those two terms. Rounding leaves some
+ * of Psi in y, which does not grow and does no work, as f has none. */
 static enum percuss_status advance_columns(struct flexibility *f, size_t count, double *work,
                                            double *step, struct fault *fault)
 {
@@ -786,10 +881,6 @@ static enum percuss_status advance_columns(struct flexibility *f, size_t count, 
     enum percuss_status status = factor_solve(f->body.factor, count, f->work, fault);
     if (status != PERCUSS_OK)
         return status;
-    /* without Psi */
-    dense_products((struct dense){n, f->psi_count, f->mass_psi}, (struct dense){n, count, f->work},
-                   f->products);
-    dense_combine((struct dense){n, f->psi_count, f->psi}, -1.0, f->products, 1.0, count, f->work);
     /* both terms of the work: of the load, and of the step */
     for (size_t c = 0; c < count; c++) {
         const double *y = f->work + c * n;
@@ -805,6 +896,19 @@ static enum percuss_status advance_columns(struct flexibility *f, size_t count, 
     f->x = f->work;
     f->work = swap;
     return PERCUSS_OK;
+}
+
+/* x becomes w = x - Psi g, with what rounding left of Psi taken out and held nodes shifted. */
+static void complete_columns(struct flexibility *f, size_t count)
+{
+    size_t n = f->n;
+    dense_products((struct dense){n, f->psi_count, f->mass_psi}, (struct dense){n, count, f->x},
+                   f->products);
+    for (size_t i = 0; i < count * f->psi_count; i++)
+        f->products[i] += f->momenta[i];
+    dense_combine((struct dense){n, f->psi_count, f->psi}, -1.0, f->products, 1.0, count, f->x);
+    for (size_t i = 0; f->body.matrices->held && i < count * n; i++)
+        f->x[i] += f->shifts[i];
 }
 
 /* the first `count` columns, prepared */
@@ -844,6 +948,7 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
     enum percuss_status status = iterate_columns(f, count, work, fault);
     if (status != PERCUSS_OK)
         return status;
+    complete_columns(f, count);
     for (size_t c = 0; c < count; c++) {
         const struct flexibility_place *place = &places[c];
         answers[c].imbalance = terms[c].imbalance;
@@ -894,6 +999,5 @@ double flexibility_response(const struct flexibility *flexibility, size_t solved
     double u[3];
     boussinesq3_field(&flexibility->places[solved].load, other->load.point, u, NULL);
     return dot3(u, other->load.inward) +
-           displacement_at(flexibility, other, flexibility->x + start) +
-           displacement_at(flexibility, other, flexibility->rest + start);
+           displacement_at(flexibility, other, flexibility->x + start);
 }

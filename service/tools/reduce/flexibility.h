@@ -34,7 +34,7 @@ struct flexibility_body {
     const struct surface *surface;
     const struct matrices *matrices;
     struct factor *factor; /* of K + shift M */
-    double shift;          /* 1/s^2, of the order of the first elastic eigenvalue */
+    double shift;          /* 1/s^2, at most of the order of the first elastic eigenvalue */
     size_t rigid_count, removed;
     const double *rigid;  /* [rigid_count][3 node_count], M-orthonormal */
     const double *shapes; /* [removed][3 node_count], M-orthonormal; the first ones */

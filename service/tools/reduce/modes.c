@@ -177,12 +177,12 @@ enum percuss_status modes_count(const struct modes_task *task, double omega, siz
     return status;
 }
 
-static enum percuss_status make_factor(const struct modes_task *task, struct factor **factor,
-                                       struct fault *fault)
+static enum percuss_status make_factor(const struct modes_task *task, double shift,
+                                       struct factor **factor, struct fault *fault)
 {
     enum percuss_status status = factor_analyse(task->matrices, FACTOR_POSITIVE, factor, fault);
     if (!status)
-        status = factor_compute(*factor, task->scale, fault);
+        status = factor_compute(*factor, shift, fault);
     if (status) {
         factor_free(*factor);
         *factor = NULL;
@@ -257,6 +257,16 @@ static size_t modes_there_are(const struct modes_task *task)
     return moving > task->rigid.count ? moving - task->rigid.count : 0;
 }
 
+/* The shift for statics, which go without the modes: a step leaves shift / (shift + w^2) of each
+ * further one. This far below the first mode one or two steps do, and of the sixteen digits rigid
+ * motions take two more. */
+static double static_shift(const struct modes_task *task, const struct modes *modes)
+{
+    static const double BELOW_FIRST = 1e-2;
+    double first = modes->count ? modes->omega[0] * modes->omega[0] : task->scale;
+    return BELOW_FIRST * fmin(task->scale, first);
+}
+
 /* So many modes; then a count says whether they are the lowest, between two of the spare ones. */
 static enum percuss_status find_most(const struct modes_task *task, struct modes *modes,
                                      struct factor **factor, struct fault *fault)
@@ -267,7 +277,7 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
                          "%zu modes: must be at most %zu with such a mesh", task->most,
                          most > SPARE ? most - SPARE : 0);
     for (uint64_t attempt = 1; attempt <= ATTEMPTS; attempt++) {
-        enum percuss_status status = make_factor(task, factor, fault);
+        enum percuss_status status = make_factor(task, task->scale, factor, fault);
         if (!status)
             status = seek_modes(task, *factor, task->most + SPARE, attempt, modes, fault);
         if (status)
@@ -281,8 +291,10 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
         status = modes_count(task, modes->confirmed_below, &counted, fault);
         if (status)
             return status;
-        if (counted == modes->confirmed)
-            return make_factor(task, factor, fault);
+        if (counted == modes->confirmed) {
+            modes->shift = static_shift(task, modes);
+            return make_factor(task, modes->shift, factor, fault);
+        }
     }
     return fault_set(fault, PERCUSS_INTERNAL, "%zu modes found below %g Hz, where there are %zu",
                      modes->confirmed, modes->confirmed_below / (2.0 * M_PI), counted);
@@ -293,13 +305,15 @@ static enum percuss_status find_below(const struct modes_task *task, size_t coun
                                       struct modes *modes, struct factor **factor,
                                       struct fault *fault)
 {
-    enum percuss_status status = make_factor(task, factor, fault);
+    enum percuss_status status = make_factor(task, task->scale, factor, fault);
     modes->count = modes->confirmed = count;
     modes->confirmed_below = task->below;
     for (uint64_t attempt = 1; !status && attempt <= ATTEMPTS; attempt++) {
         status = seek_modes(task, *factor, count, attempt, modes, fault);
-        if (!status && (count == 0 || modes->omega[count - 1] < task->below))
-            return PERCUSS_OK;
+        if (!status && (count == 0 || modes->omega[count - 1] < task->below)) {
+            modes->shift = static_shift(task, modes);
+            return factor_compute(*factor, modes->shift, fault);
+        }
     }
     return status ? status
                   : fault_set(fault, PERCUSS_INTERNAL,

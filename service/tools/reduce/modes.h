@@ -33,7 +33,7 @@ struct modes {
     size_t count;   /* elastic modes */
     double *omega;  /* [count], rad/s, ascending */
     double *shapes; /* [count][n], M-orthonormal, orthogonal to rigid motions */
-    double shift;   /* 1/s^2 */
+    double shift;   /* 1/s^2, of the factor: far below the first mode, for statics */
     double doubt;   /* largest |x^T M y - (1 if x is y)| of all rigid motions and modes */
     /* by inertia so many modes, of which these are the first, lie below this frequency */
     size_t confirmed;

@@ -479,29 +479,11 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     return reduced_body_make(&parts, &reduction->body, fault);
 }
 
-/* Statics converge by at least half a step with a shift that is not above the modes left: of a
- * slender body with few modes that of the search is, and the factor is made again. */
-static enum percuss_status lower_shift(struct reduction *reduction, size_t removed,
-                                       struct fault *fault)
-{
-    struct modes *modes = &reduction->modes;
-    if (removed == 0)
-        return PERCUSS_OK;
-    double last = modes->omega[removed - 1] * modes->omega[removed - 1];
-    if (modes->shift <= last)
-        return PERCUSS_OK;
-    modes->shift = last;
-    return factor_compute(reduction->factor, last, fault);
-}
-
 static enum percuss_status find_flexibility(struct reduction *reduction, struct fault *fault)
 {
     const struct options *options = reduction->options;
     const struct modes *modes = &reduction->modes;
     size_t removed = modes->count < REMOVED ? modes->count : REMOVED;
-    enum percuss_status status = lower_shift(reduction, removed, fault);
-    if (status != PERCUSS_OK)
-        return status;
     struct watch watch = {progress_show, &reduction->progress};
     /* modes that are kept are taken out, as many as pay */
     struct sites_task task = {.body = {.mesh = &reduction->mesh,

@@ -241,6 +241,29 @@ static void reach_does_not_matter(void **state)
     flexed_free(&flexed);
 }
 
+/* Elements a hundred times as long as they are thick: their faces are split across, so that the
+ * forces balance to the quadrature's 1e-8 (quarters of such a face left 1e-2). */
+static void bar(const double cube[3], double point[3])
+{
+    for (int k = 0; k < 3; k++)
+        point[k] = (k == 0 ? 1.0 : RADIUS) * cube[k];
+}
+
+static void slender_elements_balance(void **state)
+{
+    (void)state;
+    struct flexed flexed;
+    struct block block = {ELEMENT_HEX20, {1, 1, 2}, bar, false};
+    struct solid_mesh mesh = block_make(&block);
+    mesh.part[0].material = metal(0.3);
+    /* below the first bending */
+    flexed_make(&flexed, &mesh, shift_for(100.0), false);
+    struct flexibility_place place = flexed_place(&flexed, 0.5, 0.0, 0.003);
+    measured("imbalance of slender elements, 1e-8", 1e8 * flexed_solve(&flexed, &place).imbalance,
+             0.0, 1.0);
+    flexed_free(&flexed);
+}
+
 /* What one force does at another's place is what that one does at this: two different fields are
  * split off, and the mesh makes the difference. */
 static void responses_are_reciprocal(void **state)
@@ -310,6 +333,7 @@ int main(void)
         cmocka_unit_test(sphere_is_that_of_harmonics),
         cmocka_unit_test(held_rod_differs_from_a_free_one_by_its_stretch),
         cmocka_unit_test(reach_does_not_matter),
+        cmocka_unit_test(slender_elements_balance),
         cmocka_unit_test(responses_are_reciprocal),
         cmocka_unit_test(modes_take_their_part),
     };
