@@ -168,6 +168,11 @@ enum percuss_status factor_solve(struct factor *factor, size_t count, double *b,
     return outcome(factor, fault);
 }
 
+bool factor_forks(void)
+{
+    return true;
+}
+
 size_t factor_negatives(const struct factor *factor)
 {
     return (size_t)factor->mumps.infog[11];

@@ -36,6 +36,9 @@ enum percuss_status factor_compute(struct factor *factor, double shift, struct f
 enum percuss_status factor_solve(struct factor *factor, size_t count, double *b,
                                  struct fault *fault);
 
+/* Whether forked copies of the process may solve too, each by itself. */
+bool factor_forks(void);
+
 /* Eigenvalues below zero of the factored matrix: by Sylvester's law of inertia the eigenvalues of K
  * x = w^2 M x below -shift. */
 size_t factor_negatives(const struct factor *factor);

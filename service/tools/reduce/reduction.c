@@ -17,6 +17,7 @@
 #include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
+#include "reduce/forked.h"
 #include "reduce/vtk.h"
 
 /* ---- progress on standard error ---- */
@@ -479,6 +480,16 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     return reduced_body_make(&parts, &reduction->body, fault);
 }
 
+/* As many as there are processors, and memory for the columns that each holds beside the factor. */
+static size_t processes_for(const struct reduction *reduction)
+{
+    enum { COLUMNS = 8 * FLEXIBILITY_BLOCK };
+    double each = COLUMNS * sizeof(double) * (double)reduction->matrices.stiffness.n;
+    double room = 1.0 + 0.5 * free_memory() / each;
+    double processors = factor_forks() ? (double)forked_processors() : 1.0;
+    return (size_t)fmin(processors, room);
+}
+
 static enum percuss_status find_flexibility(struct reduction *reduction, struct fault *fault)
 {
     const struct options *options = reduction->options;
@@ -500,6 +511,7 @@ static enum percuss_status find_flexibility(struct reduction *reduction, struct 
                               .exact_count = options->site_count,
                               .exact = (const double(*)[3])reduction->sites_asked,
                               .between = true,
+                              .processes = processes_for(reduction),
                               .watch = &watch};
     progress_stage(&reduction->progress, "flexibility of the surface", READ + MODES,
                    1.0 - READ - MODES);

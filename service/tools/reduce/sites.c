@@ -10,6 +10,7 @@
 
 #include "model/facet.h"
 #include "model/vector.h"
+#include "reduce/forked.h"
 #include "reduce/site_field.h"
 
 /* ---- the choice of sites: places all over a surface, evenly far from each other ---- */
@@ -284,39 +285,74 @@ static void look_at_walls(const struct sites *sites, struct sites_report *report
     }
 }
 
+/* what blocks of sites compute, in memory that processes share */
+struct blocks {
+    struct sites *sites;
+    double *values, *imbalances; /* [count] */
+    float *between; /* [count][count], a row for each that is solved; NULL: not wanted */
+};
+
+/* One block: values at the cut, unknown where the elements are too coarse, and responses at the
+ * other sites. */
+static enum percuss_status solve_block(void *context, size_t block, struct fault *fault)
+{
+    const struct blocks *blocks = context;
+    const struct sites *sites = blocks->sites;
+    struct flexibility_answer answers[FLEXIBILITY_BLOCK];
+    double least = LEAST_REACH * sites->task->body.surface->size;
+    size_t first = block * FLEXIBILITY_BLOCK, left = sites->count - first;
+    size_t count = left < FLEXIBILITY_BLOCK ? left : FLEXIBILITY_BLOCK;
+    const struct flexibility_place *places = sites->places + first;
+    enum percuss_status status =
+        flexibility_solve(sites->flexibility, count, places, answers, fault);
+    for (size_t c = 0; c < count && status == PERCUSS_OK; c++) {
+        double value = at_cut(sites, &places[c], &answers[c]);
+        bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
+        blocks->values[first + c] = known ? value : NAN;
+        blocks->imbalances[first + c] = answers[c].imbalance;
+        for (size_t i = 0; blocks->between && i < sites->count; i++)
+            blocks->between[(first + c) * sites->count + i] =
+                (float)(i == first + c
+                            ? value
+                            : flexibility_response(sites->flexibility, c, &sites->places[i]));
+    }
+    return status;
+}
+
+/* the results of all blocks, the responses turned: a column for each site that is solved */
+static void take_blocks(const struct blocks *blocks, struct sites_report *report)
+{
+    struct sites *sites = blocks->sites;
+    size_t count = sites->count;
+    for (size_t c = 0; c < count; c++) {
+        sites->values[c] = blocks->values[c];
+        report->imbalance = fmax(report->imbalance, blocks->imbalances[c]);
+        for (size_t i = 0; blocks->between && i < count; i++)
+            sites->between[i * count + c] = blocks->between[c * count + i];
+    }
+}
+
 /* all sites, a block at a time */
 static enum percuss_status solve_sites(struct sites *sites, struct sites_report *report,
                                        struct fault *fault)
 {
-    struct pace pace = {.watch = sites->task->watch};
-    struct flexibility_answer answers[FLEXIBILITY_BLOCK];
-    double least = LEAST_REACH * sites->task->body.surface->size;
-    /* the next block, unless stopped */
-    for (size_t first = 0; first < sites->count; first += FLEXIBILITY_BLOCK) {
-        size_t left = sites->count - first;
-        size_t count = left < FLEXIBILITY_BLOCK ? left : FLEXIBILITY_BLOCK;
-        const struct flexibility_place *places = sites->places + first;
-        if (sites->task->watch && !pace_ask(&pace, (double)first / (double)sites->count))
-            return pace_fault(fault, PERCUSS_TIMEOUT);
-        /* each column: the value at the cut, unknown where the elements are too coarse */
-        enum percuss_status status =
-            flexibility_solve(sites->flexibility, count, places, answers, fault);
-        if (status != PERCUSS_OK)
-            return status;
-        for (size_t c = 0; c < count; c++) {
-            double value = at_cut(sites, &places[c], &answers[c]);
-            bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
-            sites->values[first + c] = known ? value : NAN;
-            report->imbalance = fmax(report->imbalance, answers[c].imbalance);
-            /* and the response at the other sites */
-            for (size_t i = 0; sites->between && i < sites->count; i++)
-                sites->between[i * sites->count + first + c] =
-                    (float)(i == first + c
-                                ? value
-                                : flexibility_response(sites->flexibility, c, &sites->places[i]));
-        }
-    }
-    return PERCUSS_OK;
+    size_t count = sites->count, values = 2 * count * sizeof(double);
+    size_t bytes = values + (sites->between ? count * count * sizeof *sites->between : 0) + 1;
+    double *memory = forked_memory(bytes);
+    if (!memory)
+        return pace_fault(fault, PERCUSS_INTERNAL);
+    struct blocks blocks = {sites, memory, memory + count,
+                            sites->between ? (float *)(memory + 2 * count) : NULL};
+    const struct forked_work work = {.parts = (count + FLEXIBILITY_BLOCK - 1) / FLEXIBILITY_BLOCK,
+                                     .processes = sites->task->processes,
+                                     .part = solve_block,
+                                     .context = &blocks,
+                                     .watch = sites->task->watch};
+    enum percuss_status status = forked_run(&work, fault);
+    if (status == PERCUSS_OK)
+        take_blocks(&blocks, report);
+    forked_memory_free(memory, bytes);
+    return status;
 }
 
 /* a response and its reciprocal are one: their mean; the largest difference where they are far

@@ -21,6 +21,7 @@ struct sites_task {
     const double (*exact)[3];  /* m, the mesh's frame: a site at each, where the surface is plane;
                                 * within a sixth of a face from it where it is not */
     bool between;              /* wanted */
+    size_t processes;          /* that solve, see forked.h; 0: one */
     const struct watch *watch; /* told the part done; NULL: no watch */
 };
 

@@ -122,6 +122,12 @@ enum percuss_status factor_solve(struct factor *factor, size_t count, double *b,
     return judge_outcome(outcome, fault);
 }
 
+/* a copy is no member of the team */
+bool factor_forks(void)
+{
+    return false;
+}
+
 size_t factor_negatives(const struct factor *factor)
 {
     return (size_t)spread_info(&factor->spread, NEGATIVES);

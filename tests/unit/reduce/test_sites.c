@@ -1,8 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/tools/reduce/sites.c and site_field.c: the flexibility that faces interpolate against
- * the one solved for in the same place. */
+/* Mirrors service/tools/reduce/sites.c, site_field.c and forked.c: the flexibility that faces
+ * interpolate against the one solved for in the same place. */
+#include <signal.h>
+#include <unistd.h>
+
+#include "reduce/forked.h"
 #include "reduce/site_field.h"
 #include "reduce/sites.h"
 #include "unit/mesh/blocks.h"
@@ -260,6 +264,77 @@ static void what_cannot_be_is_taken_back(void **state)
     scene_free(&scene);
 }
 
+/* Two processes find what one does, to the rounding of sums whose order follows from where memory
+ * lies. */
+static void processes_share_the_sites(void **state)
+{
+    (void)state;
+    enum { MOST = 40 };
+    struct scene scene;
+    struct fault fault;
+    float alone[MOST * MOST];
+    scene_make(&scene);
+    scene.task.most = MOST;
+    assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_OK);
+    assert_int_equal(scene.body.site_count, MOST);
+    memcpy(alone, scene.body.between, sizeof alone);
+    free(scene.body.site_face);
+    free(scene.body.site_point);
+    free(scene.body.site_normal);
+    free(scene.body.between);
+    scene.task.processes = 2;
+    assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_OK);
+    assert_int_equal(scene.body.site_count, MOST);
+    for (size_t i = 0; i < MOST * MOST; i++)
+        near(scene.body.between[i] * YOUNG * RADIUS, alone[i] * YOUNG * RADIUS, 1e-6);
+    assert_true(scene.report.imbalance < 1e-6);
+    scene_free(&scene);
+}
+
+/* parts that copies of the process alone have done, or died of */
+struct shares {
+    pid_t own;
+    bool deadly;
+    int *by; /* [parts], shared: the process */
+};
+
+static enum percuss_status note_process(void *context, size_t part, struct fault *fault)
+{
+    const struct shares *shares = context;
+    (void)fault;
+    if (getpid() != shares->own && shares->deadly)
+        raise(SIGKILL);
+    /* time for the others */
+    usleep(2000);
+    shares->by[part] = getpid();
+    return PERCUSS_OK;
+}
+
+/* Copies take parts; those that a killed one had begun are done all the same. */
+static void killed_copies_lose_nothing(void **state)
+{
+    (void)state;
+    enum { PARTS = 64 };
+    struct fault fault;
+    struct shares shares = {.own = getpid(), .by = forked_memory(PARTS * sizeof(int))};
+    struct forked_work work = {
+        .parts = PARTS, .processes = 3, .part = note_process, .context = &shares};
+    assert_non_null(shares.by);
+    for (int deadly = 0; deadly < 2; deadly++) {
+        size_t own = 0, others = 0;
+        shares.deadly = deadly;
+        memset(shares.by, 0, PARTS * sizeof(int));
+        assert_int_equal(forked_run(&work, &fault), PERCUSS_OK);
+        for (size_t i = 0; i < PARTS; i++) {
+            own += shares.by[i] == shares.own;
+            others += shares.by[i] != shares.own && shares.by[i] != 0;
+        }
+        assert_int_equal(own + others, PARTS);
+        assert_true(deadly ? others == 0 : others > 0);
+    }
+    forked_memory_free(shares.by, PARTS * sizeof(int));
+}
+
 /* Sites that were asked for are there, and between them stands what one does to the other. */
 static void sites_know_each_other(void **state)
 {
@@ -318,6 +393,8 @@ int main(void)
         cmocka_unit_test(walls_of_one_element_are_known),
         cmocka_unit_test(thin_walls_are_not_known),
         cmocka_unit_test(what_cannot_be_is_taken_back),
+        cmocka_unit_test(processes_share_the_sites),
+        cmocka_unit_test(killed_copies_lose_nothing),
         cmocka_unit_test(sites_know_each_other),
         cmocka_unit_test(a_watch_stops_it),
     };

@@ -1,0 +1,113 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reduce/forked.h"
+
+#include <sched.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* more copies wait for memory, not for processors */
+enum { MOST_PROCESSES = 16 };
+
+/* shared by the copies */
+struct forked_state {
+    atomic_size_t next;     /* part that nobody has begun */
+    atomic_size_t done;     /* how many */
+    atomic_bool finished[]; /* [parts] */
+};
+
+void *forked_memory(size_t bytes)
+{
+    void *memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? NULL : memory;
+}
+
+void forked_memory_free(void *memory, size_t bytes)
+{
+    if (memory)
+        munmap(memory, bytes);
+}
+
+size_t forked_processors(void)
+{
+    cpu_set_t set;
+    int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return count > 0 ? (size_t)count : 1;
+}
+
+static enum percuss_status do_part(const struct forked_work *work, struct forked_state *state,
+                                   size_t part, struct fault *fault)
+{
+    enum percuss_status status = work->part(work->context, part, fault);
+    if (status == PERCUSS_OK) {
+        atomic_store(&state->finished[part], true);
+        atomic_fetch_add(&state->done, 1);
+    }
+    return status;
+}
+
+/* Parts from the heap of all; a copy has no watch. */
+static enum percuss_status take_parts(const struct forked_work *work, struct forked_state *state,
+                                      struct pace *pace, struct fault *fault)
+{
+    enum percuss_status status = PERCUSS_OK;
+    while (status == PERCUSS_OK) {
+        double done = (double)atomic_load(&state->done) / (double)work->parts;
+        if (pace && !pace_ask(pace, done))
+            return pace_fault(fault, PERCUSS_TIMEOUT);
+        size_t part = atomic_fetch_add(&state->next, 1);
+        if (part >= work->parts)
+            break;
+        status = do_part(work, state, part, fault);
+    }
+    return status;
+}
+
+/* A copy of this process, which takes parts and ends with it; its process, or -1. */
+static pid_t make_copy(const struct forked_work *work, struct forked_state *state)
+{
+    pid_t parent = getpid(), copy = fork();
+    if (copy != 0)
+        return copy;
+    struct fault fault = {""};
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() == parent)
+        take_parts(work, state, NULL, &fault);
+    _exit(0);
+}
+
+enum percuss_status forked_run(const struct forked_work *work, struct fault *fault)
+{
+    size_t bytes = sizeof(struct forked_state) + work->parts * sizeof(atomic_bool);
+    struct forked_state *state = forked_memory(bytes);
+    struct pace pace = {.watch = work->watch};
+    pid_t copies[MOST_PROCESSES];
+    size_t count = 0;
+    if (!state)
+        return pace_fault(fault, PERCUSS_INTERNAL);
+    while (count + 1 < work->processes && count + 1 < work->parts && count + 1 < MOST_PROCESSES) {
+        copies[count] = make_copy(work, state);
+        if (copies[count] < 0)
+            break;
+        count++;
+    }
+    enum percuss_status status = take_parts(work, state, work->watch ? &pace : NULL, fault);
+    /* the rest of the copies' parts is waited for, or of no use */
+    for (size_t i = 0; i < count; i++) {
+        if (status != PERCUSS_OK)
+            kill(copies[i], SIGKILL);
+        waitpid(copies[i], NULL, 0);
+    }
+    /* and what a copy has left */
+    for (size_t part = 0; part < work->parts && status == PERCUSS_OK; part++)
+        if (!atomic_load(&state->finished[part]))
+            status = do_part(work, state, part, fault);
+    forked_memory_free(state, bytes);
+    return status;
+}
