@@ -834,6 +834,11 @@ static double integrate_field(const struct flexibility *f, const struct flexibil
     return value + hold_nodes(f, place, force, momentum, shifts);
 }
 
+void flexibility_integrate(struct flexibility *flexibility, const struct flexibility_place *place)
+{
+    integrate_field(flexibility, place, flexibility->force, flexibility->work, flexibility->shifts);
+}
+
 /* Forces of all columns without Psi, and g. Rigid motions balance a free body: f has the
  * work p on them. */
 static void prepare_columns(struct flexibility *f, size_t count, struct flexibility_terms *terms)

@@ -62,6 +62,9 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
                                       const struct flexibility_place *places,
                                       struct flexibility_answer *answers, struct fault *fault);
 
+/* The integrals of one place alone, without a solution: a sample of their time. */
+void flexibility_integrate(struct flexibility *flexibility, const struct flexibility_place *place);
+
 /* Change of a flexibility with the logarithm of its radius, m/N: C(r) = C(r') + slope ln(r' / r).
  */
 double flexibility_slope(double young, double poisson, double mean_curvature);

@@ -132,18 +132,24 @@ static const double COUNTED = 0.15, FACTORED = 0.25;
  * memory. */
 static const double FACTOR_RATE = 8e9, SOLVE_RATE = 5e9;
 
-struct modes_cost modes_cost(const struct factor *factor, size_t n, size_t count)
+struct modes_cost modes_cost(const struct factor_cost *cost, size_t n, size_t count)
 {
-    struct factor_cost cost = factor_cost(factor);
     double vectors = (double)lanczos_expected_vectors(count), length = (double)n;
     /* a solve passes all entries twice; each new vector meets all before it four times, twice; an
      * indefinite factor counts the modes first */
-    double solves = 4.0 * cost.entries * vectors;
+    double solves = 4.0 * cost->entries * vectors;
     double products = 4.0 * length * vectors * vectors + 2.0 * length * vectors * (double)count;
     double arrays = 8.0 * (length * (vectors + (double)count) + 3.0 * vectors * vectors);
-    return (struct modes_cost){cost.memory + arrays,
-                               (2.5 * cost.operations + products) / FACTOR_RATE +
+    return (struct modes_cost){cost->memory + arrays,
+                               (2.5 * cost->operations + products) / FACTOR_RATE +
                                    solves / SOLVE_RATE};
+}
+
+/* one or two solutions, and five products with the modes that are taken out */
+double modes_statics_seconds(const struct factor_cost *cost, size_t n, size_t count, size_t removed)
+{
+    double solves = 1.5 * 4.0 * cost->entries, products = 10.0 * (double)n * (double)removed;
+    return (double)count * (solves / SOLVE_RATE + products / FACTOR_RATE);
 }
 
 /* A watch for one stage of the work. */
@@ -194,7 +200,9 @@ static enum percuss_status seek_modes(const struct modes_task *task, struct fact
                                       size_t count, uint64_t seed, struct modes *modes,
                                       struct fault *fault)
 {
-    struct stage stage = {task->watch, COUNTED + FACTORED, 1.0 - COUNTED - FACTORED};
+    /* where they are counted afterwards there is another factor to make, too */
+    double before = count > task->most ? 0.5 * FACTORED : COUNTED + FACTORED;
+    struct stage stage = {task->watch, before, 1.0 - COUNTED - FACTORED};
     struct watch watch = {task->watch && task->watch->proceed ? stage_proceed : NULL, &stage};
     struct lanczos_input input = {.matrices = task->matrices,
                                   .factor = factor,
@@ -360,7 +368,7 @@ enum percuss_status modes_find(const struct modes_task *task, struct modes *mode
     enum percuss_status status = PERCUSS_OK;
     if (isfinite(task->below) && count == SIZE_MAX)
         status = modes_count(task, task->below, &count, fault);
-    if (!status && !tell_done(task, COUNTED))
+    if (!status && !tell_done(task, count <= task->most ? COUNTED : 0.0))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped");
     if (!status)
         status = count <= task->most ? find_below(task, count, modes, factor, fault)

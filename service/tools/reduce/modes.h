@@ -56,7 +56,11 @@ struct modes_cost {
     double memory;  /* bytes at the peak */
     double seconds; /* on one core of some 2020: to a factor of two or so */
 };
-struct modes_cost modes_cost(const struct factor *factor, size_t n, size_t count);
+struct modes_cost modes_cost(const struct factor_cost *cost, size_t n, size_t count);
+
+/* Time of `count` static solutions without `removed` modes, s as above. */
+double modes_statics_seconds(const struct factor_cost *cost, size_t n, size_t count,
+                             size_t removed);
 
 /* Elastic modes below a frequency (rad/s), by inertia: takes a factor. Errors as below. */
 enum percuss_status modes_count(const struct modes_task *task, double omega, size_t *count,

@@ -208,6 +208,10 @@ static void report_json(const struct reduction *reduction)
     putchar(']');
     put_number("memory", reduction->cost.memory);
     put_number("seconds", reduction->seconds);
+    put_number("seconds_modes", reduction->modes_seconds);
+    put_number("seconds_sites", reduction->sites_seconds);
+    put_number("seconds_expected", reduction->cost.seconds + reduction->statics);
+    put_number("seconds_site_field", reduction->sample.seconds);
     printf("\n}\n");
 }
 

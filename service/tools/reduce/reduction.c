@@ -53,13 +53,23 @@ static double progress_seconds(const struct progress *progress)
     return clock_seconds() - progress->start;
 }
 
+/* Time left, s: as expected at first, then more and more as the work goes; < 0: not known. */
+static double progress_left(const struct progress *progress, double done)
+{
+    /* the part of the work that the expectation is worth */
+    static const double FAITH = 0.05;
+    if (!(progress->expected > 0.0))
+        return -1.0;
+    double elapsed = clock_seconds() - progress->work;
+    return (1.0 - done) * (elapsed + FAITH * progress->expected) / (done + FAITH);
+}
+
 static void write_progress(struct progress *progress, double done)
 {
-    double elapsed = progress_seconds(progress);
+    double left = progress_left(progress, done);
     fprintf(stderr, "%s%5.1f %%  %s", progress->terminal ? "\r" : "percuss-reduce: ", 100.0 * done,
             progress->label);
-    if (elapsed > FIRST_GUESS && done > 0.01) {
-        double left = elapsed * (1.0 - done) / done;
+    if (progress_seconds(progress) > FIRST_GUESS && left >= 0.0) {
         if (left < 100.0)
             fprintf(stderr, ", %.0f s left", left);
         else
@@ -227,9 +237,6 @@ static const double OFF_SURFACE = 0.5;
  * length makes 1e6 of mass, exchanged ones 1e20. */
 static const double OTHER_SCALE = 1e5;
 
-/* Shares of the time, for the progress. */
-static const double READ = 0.02, MODES = 0.55;
-
 /* The slowest shear wave that the mesh carries. */
 static double frequency_limit(const struct solid_mesh *mesh, double element)
 {
@@ -379,33 +386,84 @@ static double free_memory(void)
     return 1024.0 * kilobytes;
 }
 
-/* Tells time and memory before the first factor, and refuses where the memory does not suffice. */
-static enum percuss_status estimate_cost(struct reduction *reduction, size_t count, bool counted,
-                                         struct fault *fault)
+/* As many as there are processors, and memory for the columns that each holds beside the factor. */
+static size_t processes_for(const struct reduction *reduction)
+{
+    enum { COLUMNS = 8 * FLEXIBILITY_BLOCK };
+    double each = COLUMNS * sizeof(double) * (double)reduction->matrices.stiffness.n;
+    double room = 1.0 + 0.5 * free_memory() / each;
+    double processors = factor_forks() ? (double)forked_processors() : 1.0;
+    return (size_t)fmin(processors, room);
+}
+
+/* the sites that flexibility is solved for at; a watch and modes come later */
+static struct sites_task sites_task_of(const struct reduction *reduction)
+{
+    return (struct sites_task){.body = {.mesh = &reduction->mesh,
+                                        .surface = &reduction->surface,
+                                        .matrices = &reduction->matrices,
+                                        .rigid_count = reduction->task.rigid.count,
+                                        .rigid = reduction->rigid},
+                               .most = SITES,
+                               .exact_count = reduction->options->site_count,
+                               .exact = (const double(*)[3])reduction->sites_asked,
+                               .between = true,
+                               .processes = processes_for(reduction)};
+}
+
+/* The order of unknowns and a sample of the sites' integrals, which all estimates follow from. */
+static enum percuss_status take_sample(struct reduction *reduction, struct fault *fault)
 {
     struct factor *factor;
-    size_t n = reduction->task.rigid.n;
+    double start = clock_seconds();
     enum percuss_status status =
         factor_analyse(&reduction->matrices, FACTOR_POSITIVE, &factor, fault);
     if (status)
         return status;
-    reduction->cost = modes_cost(factor, n, count);
+    reduction->order_seconds = clock_seconds() - start;
+    reduction->factor_cost = factor_cost(factor);
     factor_free(factor);
+    struct sites_task task = sites_task_of(reduction);
+    return sites_sample(&task, &reduction->sample, fault);
+}
+
+/* Tells time and memory before the first factor, and refuses where the memory does not suffice. */
+static enum percuss_status estimate_cost(struct reduction *reduction, size_t count, bool counted,
+                                         struct fault *fault)
+{
+    size_t n = reduction->task.rigid.n, sites = reduction->sample.count;
+    reduction->cost = modes_cost(&reduction->factor_cost, n, count);
+    /* unknowns are ordered anew for each of three factors */
+    reduction->cost.seconds += 3.0 * reduction->order_seconds;
     /* and the matrices themselves */
     reduction->cost.memory += 12.0 * (double)reduction->matrices.stiffness.start[n] +
                               12.0 * (double)reduction->matrices.mass.start[n];
+    double each = reduction->sample.seconds;
+    reduction->statics =
+        ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, n, sites,
+                                                      count < REMOVED ? count : REMOVED)) /
+        (double)processes_for(reduction);
+    reduction->progress.work = clock_seconds();
+    reduction->progress.expected = reduction->cost.seconds + reduction->statics;
     double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free_memory();
     progress_clear(&reduction->progress);
     fprintf(stderr,
-            "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, and %.2g s for "
-            "the modes\n",
-            n, counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds);
+            "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, %.2g s for the "
+            "modes and %.2g s for the flexibility at %zu sites\n",
+            n, counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds,
+            reduction->statics, sites);
     if (gigabytes > room)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "needs %.2g GB of memory, of which %.2g GB are free: fewer modes "
                          "(--modes) or a coarser mesh",
                          gigabytes, room);
     return PERCUSS_OK;
+}
+
+/* The part of the work that seeking modes is. */
+static double modes_share(const struct reduction *reduction)
+{
+    return reduction->cost.seconds / (reduction->cost.seconds + reduction->statics);
 }
 
 /* Which modes: by number, by frequency, or as far as the mesh is good. */
@@ -417,14 +475,16 @@ static enum percuss_status choose_modes(struct reduction *reduction, struct faul
     bool asked = options->max_frequency > 0.0;
     task->most = options->modes ? options->modes : asked ? LIMIT_MODES : OPTIONS_MODES;
     task->below = INFINITY;
-    enum percuss_status status =
-        estimate_cost(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
+    enum percuss_status status = take_sample(reduction, fault);
+    if (!status)
+        status =
+            estimate_cost(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
     if (status || options->modes)
         return status;
     /* by frequency, asked for or the mesh's own: those below are counted */
     double hertz = asked ? options->max_frequency : reduction->good_to;
     size_t count;
-    progress_stage(&reduction->progress, "counting modes", READ, 0.1 * MODES);
+    progress_stage(&reduction->progress, "counting modes", 0.0, 0.0);
     status = modes_count(task, 2.0 * M_PI * hertz, &count, fault);
     if (status)
         return status;
@@ -446,7 +506,7 @@ static enum percuss_status choose_modes(struct reduction *reduction, struct faul
 static enum percuss_status find_modes(struct reduction *reduction, struct fault *fault)
 {
     struct watch watch = {progress_show, &reduction->progress};
-    progress_stage(&reduction->progress, "modes", READ, MODES);
+    progress_stage(&reduction->progress, "modes", 0.0, modes_share(reduction));
     reduction->task.watch = &watch;
     enum percuss_status status =
         modes_find(&reduction->task, &reduction->modes, &reduction->factor, fault);
@@ -480,41 +540,21 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     return reduced_body_make(&parts, &reduction->body, fault);
 }
 
-/* As many as there are processors, and memory for the columns that each holds beside the factor. */
-static size_t processes_for(const struct reduction *reduction)
-{
-    enum { COLUMNS = 8 * FLEXIBILITY_BLOCK };
-    double each = COLUMNS * sizeof(double) * (double)reduction->matrices.stiffness.n;
-    double room = 1.0 + 0.5 * free_memory() / each;
-    double processors = factor_forks() ? (double)forked_processors() : 1.0;
-    return (size_t)fmin(processors, room);
-}
-
 static enum percuss_status find_flexibility(struct reduction *reduction, struct fault *fault)
 {
-    const struct options *options = reduction->options;
     const struct modes *modes = &reduction->modes;
     size_t removed = modes->count < REMOVED ? modes->count : REMOVED;
     struct watch watch = {progress_show, &reduction->progress};
     /* modes that are kept are taken out, as many as pay */
-    struct sites_task task = {.body = {.mesh = &reduction->mesh,
-                                       .surface = &reduction->surface,
-                                       .matrices = &reduction->matrices,
-                                       .factor = reduction->factor,
-                                       .shift = modes->shift,
-                                       .rigid_count = reduction->task.rigid.count,
-                                       .removed = removed,
-                                       .rigid = reduction->rigid,
-                                       .shapes = modes->shapes,
-                                       .omega = modes->omega},
-                              .most = SITES,
-                              .exact_count = options->site_count,
-                              .exact = (const double(*)[3])reduction->sites_asked,
-                              .between = true,
-                              .processes = processes_for(reduction),
-                              .watch = &watch};
-    progress_stage(&reduction->progress, "flexibility of the surface", READ + MODES,
-                   1.0 - READ - MODES);
+    struct sites_task task = sites_task_of(reduction);
+    task.body.factor = reduction->factor;
+    task.body.shift = modes->shift;
+    task.body.removed = removed;
+    task.body.shapes = modes->shapes;
+    task.body.omega = modes->omega;
+    task.watch = &watch;
+    double share = modes_share(reduction);
+    progress_stage(&reduction->progress, "flexibility of the surface", share, 1.0 - share);
     return sites_find(&task, reduction->body, &reduction->sites, fault);
 }
 
@@ -537,7 +577,7 @@ enum percuss_status reduction_run(const struct options *options, struct reductio
 {
     *reduction =
         (struct reduction){.options = options, .progress = progress_begin(options->progress)};
-    progress_stage(&reduction->progress, "reading", 0.0, READ);
+    progress_stage(&reduction->progress, "reading", 0.0, 0.0);
     enum percuss_status status = check_output(options->body, fault);
     if (!status && options->vtk)
         status = check_output(options->vtk, fault);
@@ -547,12 +587,16 @@ enum percuss_status reduction_run(const struct options *options, struct reductio
         status = assemble_matrices(reduction, fault);
     if (!status)
         status = choose_modes(reduction, fault);
+    double begun = progress_seconds(&reduction->progress);
     if (!status)
         status = find_modes(reduction, fault);
+    reduction->modes_seconds = progress_seconds(&reduction->progress) - begun;
     if (!status)
         status = make_body(reduction, fault);
+    begun = progress_seconds(&reduction->progress);
     if (!status)
         status = find_flexibility(reduction, fault);
+    reduction->sites_seconds = progress_seconds(&reduction->progress) - begun;
     progress_clear(&reduction->progress);
     /* files */
     if (!status)

@@ -19,7 +19,8 @@ struct progress {
     bool terminal, stages; /* a line for each stage too */
     double pause;          /* s between lines */
     double start, told;    /* s of a clock */
-    double from, share;    /* of the whole: before the present stage, and its own */
+    double from, share;    /* of the work: before the present stage, and its own */
+    double work, expected; /* s: when modes began to be sought, and all from there on; 0: unknown */
 };
 
 struct reduction {
@@ -38,13 +39,17 @@ struct reduction {
     struct matrices matrices;
     double *rigid;
     struct modes_task task;
+    double order_seconds; /* for the order of unknowns, measured */
+    struct factor_cost factor_cost;
     struct modes_cost cost;
+    struct sites_sample sample;
+    double statics; /* s that the sites are expected to take */
     struct modes modes;
     struct factor *factor;
     /* results */
     struct mesh_body *body;
     struct sites_report sites;
-    double seconds;
+    double modes_seconds, sites_seconds, seconds;
 };
 
 /* Everything up to and with the files that were asked for. The report tells the results, the

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "model/facet.h"
 #include "model/vector.h"
@@ -498,6 +499,35 @@ static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body
     sites->between = NULL;
     free(kept);
     return PERCUSS_OK;
+}
+
+static double clock_seconds(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+enum percuss_status sites_sample(const struct sites_task *task, struct sites_sample *sample,
+                                 struct fault *fault)
+{
+    enum { SAMPLES = 8 };
+    struct sites_task bare = *task;
+    struct sites sites = {.task = &bare};
+    double spacing;
+    bare.body.rigid_count = bare.body.removed = 0;
+    bare.between = false;
+    sites.flexibility = flexibility_make(&bare.body);
+    enum percuss_status status = sites.flexibility ? choose_sites(&sites, &spacing, fault)
+                                                   : pace_fault(fault, PERCUSS_INTERNAL);
+    if (status == PERCUSS_OK) {
+        double start = clock_seconds();
+        for (size_t i = 0; i < SAMPLES && sites.count > 0; i++)
+            flexibility_integrate(sites.flexibility, &sites.places[i * sites.count / SAMPLES]);
+        *sample = (struct sites_sample){sites.count, (clock_seconds() - start) / SAMPLES};
+    }
+    sites_free(&sites);
+    return status;
 }
 
 enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *body,

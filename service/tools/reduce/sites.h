@@ -42,6 +42,16 @@ struct sites_report {
     double asymmetry;     /* largest difference of two responses that ought to be one, m/N */
 };
 
+/* Before there is a factor or a mode. */
+struct sites_sample {
+    size_t count;   /* sites that there will be */
+    double seconds; /* for the integrals of one, the mean of a few */
+};
+
+/* The task's body needs neither factor nor modes. PERCUSS_INTERNAL without memory. */
+enum percuss_status sites_sample(const struct sites_task *task, struct sites_sample *sample,
+                                 struct fault *fault);
+
 /* The body's modes are removed as far as that makes the flexibility smoother: they have peaks and
  * nodes of their own, which sites catch less the higher they are. The error at an omitted site,
  * interpolated from its neighbours, decides how many, at most as many as the task's body says.

@@ -346,6 +346,14 @@ static void sites_know_each_other(void **state)
     scene.task.exact_count = 2;
     scene.task.exact = exact;
     scene.task.most = 40;
+    /* as many as were foretold without factor and modes */
+    struct sites_sample sample;
+    struct sites_task early = scene.task;
+    early.body.factor = NULL;
+    early.body.shapes = early.body.omega = NULL;
+    assert_int_equal(sites_sample(&early, &sample, &fault), PERCUSS_OK);
+    assert_int_equal(sample.count, 40);
+    assert_true(sample.seconds > 0.0 && sample.seconds < 10.0);
     assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_OK);
     assert_int_equal(scene.body.site_count, 40);
     for (size_t i = 0; i < 2; i++)
