@@ -5,11 +5,11 @@
 # What percuss-reduce takes, on bodies from compact to slender, beside CalculiX's frequencies of the same mesh where ccx
 # is: a line of a table each. Times are of the processors (user), so that other work on the machine does not count, and
 # seconds of the wall for the two stages; the reduction itself uses all processors for the sites.
-# usage: reduction.sh BUILD [cube|plate|bar|slender|part]...    (default: all)
+# usage: reduction.sh BUILD [cube|plate|bar|strips|slender|part]...    (default: all)
 set -eu
 build=$(cd "$1" && pwd)
 shift
-[ $# -gt 0 ] || set -- cube plate bar slender part
+[ $# -gt 0 ] || set -- cube plate bar strips slender part
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -104,6 +104,10 @@ for body; do
         bricks bar 100 1 1 1000 10 10
         measure bar 10 1
         ;;
+    strips)
+        bricks strips 13 1 4 1000 10 10
+        measure strips 1 31
+        ;;
     slender)
         # the same bar, its elements a hundred times as long as they are wide
         bricks slender 1 1 2 1000 10 10
@@ -114,7 +118,7 @@ for body; do
         measure part 100 1
         ;;
     *)
-        echo "reduction: $body: must be cube, plate, bar, slender or part" >&2
+        echo "reduction: $body: must be cube, plate, bar, strips, slender or part" >&2
         exit 2
         ;;
     esac
