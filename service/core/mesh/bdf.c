@@ -3,11 +3,13 @@
 
 #include "mesh/bdf.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "mesh/builder.h"
 #include "mesh/element.h"
@@ -561,6 +563,8 @@ static enum percuss_status include_file(struct bdf *bdf, struct bdf_lines *lines
     enum percuss_status status = bdf_include(lines, path);
     if (status != PERCUSS_OK)
         return status;
+    if (access(path, R_OK) != 0)
+        return bdf_refuse(card, "%s: %s", path, strerror(errno));
     bdf->depth++;
     status = read_bdf_file(bdf, path, lines->bulk ? BDF_BULK : BDF_CONTROL);
     bdf->depth--;
@@ -845,10 +849,8 @@ static enum percuss_status give_part_material(struct bdf *bdf, const struct bdf_
         .density = material->has_density ? material->density * bdf->mass_factor : NAN};
     part->has_material = material->has_density;
     enum percuss_status status = file_material_convert(&stated, unit, &part->material, bdf->fault);
-    if (status == PERCUSS_OK && !material->has_density &&
-        !builder_remark(&bdf->builder, "%s: %s has no RHO: the density of %s must be given", where,
-                        name, part->name))
-        return bdf_out_of_memory(bdf);
+    if (!part->has_material)
+        snprintf(part->lacks, sizeof part->lacks, "%s has no RHO", name);
     /* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then
      */
     bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;

@@ -35,13 +35,11 @@ enum percuss_status file_material_convert(const struct file_material *from, doub
     to->poisson = from->poisson;
     to->density = from->density * density;
     to->yield = INFINITY;
-    if (!(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
+    if (!isnan(to->young) && !(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
         return refuse_quantity(from, true, to->young, fault);
-    if (isnan(to->density))
-        return PERCUSS_OK;
-    if (!(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
+    if (!isnan(to->density) && !(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
         return refuse_quantity(from, false, to->density, fault);
-    if (material_check(to, &inner) != PERCUSS_OK)
+    if (!isnan(to->young) && !isnan(to->density) && material_check(to, &inner) != PERCUSS_OK)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s: %.400s", from->file, from->name,
                          inner.text);
     return PERCUSS_OK;

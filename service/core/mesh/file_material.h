@@ -16,8 +16,9 @@ struct file_material {
     double young, poisson, density;
 };
 
-/* The material in SI, elastic; `unit`: m of one unit of length. A density of NAN is not stated, and
- * stays so. PERCUSS_BAD_REQUEST: a modulus or density that no solid has, as in other units. */
+/* The material in SI, elastic; `unit`: m of one unit of length. Numbers that are NAN are not
+ * stated, and stay so. PERCUSS_BAD_REQUEST: a modulus or density that no solid has, as in other
+ * units. */
 enum percuss_status file_material_convert(const struct file_material *from, double unit,
                                           struct material *to, struct fault *fault);
 

@@ -457,7 +457,7 @@ static void refuses_with_the_line(void **state)
                  "*ELASTIC: TYPE=ORTHO: must be ISOTROPIC");
     file_refused(".inp", file_with(BRICK, "*DENSITY\n7.8e-9", "*DENSITY\n7800"),
                  "*DENSITY: 7800 is 7.8e+15 kg/m^3 in units of N, s and the file's length");
-    file_refused(".inp", file_with(BRICK, "210000., .3", "210000., .5"), "material Steel: poisson");
+    file_refused(".inp", file_with(BRICK, "210000., .3", "210000., .5"), ": Steel: poisson");
     file_refused(".inp", file_with(BRICK, "*STEP", "*NGEN\n1, 9, 1\n*STEP"),
                  "*NGEN: is not read: nodes and elements must be written out");
     file_refused(".inp", file_with(BRICK, "*NODE, NSET=ALL", "*NODE, SYSTEM=C"), "must be R");
