@@ -390,7 +390,10 @@ EACH_CELL void slip_direction(const double ratio[3], const struct slip *slip, do
 {
     double limit = 0.5 * (slip->share + share);
     const double at[2] = {slip->x, slip->y};
-    double way[2] = {slip->left * elastic[0], slip->left * elastic[1]};
+    /* the chord of what is left of the way */
+    double past = 0.5 * turn * (1.0 - slip->left);
+    double way[2] = {slip->left * (elastic[0] - past * elastic[1]),
+                     slip->left * (elastic[1] + past * elastic[0])};
     across_kappa(ratio, at, slip->share, share - slip->share, way);
     double size = sqrt(way[0] * way[0] + way[1] * way[1]);
     /* a = moved/kept; q times kept^4, the force times kept^8 and what else has no quotient */
@@ -707,17 +710,15 @@ static void find_slopes(struct friction *friction, const struct walk *walk)
 }
 
 /* The angle by which a way turns between its ends, of which the chord has the direction of its
- * middle: twice that to the rate at its end, in the plane where kappa is in both. A way that turns
- * back, or by more than a right angle, is its chord. */
-static void set_turn(struct walk *walk, const double rate[2])
+ * middle: twice that to the rate at its end, in the plane where kappa is in both. By its sine,
+ * which fades out to a right angle: a way that turns back is its chord. */
+static double turn_of(const double moved[2], const double rate[2])
 {
-    const double *moved = walk->moved;
-    double sizes =
-        sqrt((moved[0] * moved[0] + moved[1] * moved[1]) * (rate[0] * rate[0] + rate[1] * rate[1]));
+    double squares =
+        (moved[0] * moved[0] + moved[1] * moved[1]) * (rate[0] * rate[0] + rate[1] * rate[1]);
     double with = moved[0] * rate[0] + moved[1] * rate[1];
     double across = moved[0] * rate[1] - moved[1] * rate[0];
-    if (with > M_SQRT1_2 * sizes)
-        walk->turn = 2.0 * across / sizes;
+    return with > 0.0 && squares > 0.0 ? 2.0 * across * with / squares : 0.0;
 }
 
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
@@ -750,7 +751,7 @@ void friction_walk_curved(struct friction *friction, double indentation,
                                 kappa[1] * rate[0] + kappa[2] * rate[1]};
         double heading[2];
         to_axis(friction, with, heading);
-        set_turn(&walk, heading);
+        walk.turn = part * turn_of(walk.moved, heading);
     }
     if (before > 0.0 || indentation > 0.0) {
         const struct normal from = normal_at(friction, before);
