@@ -12,6 +12,7 @@
 #include "model/facet.h"
 #include "model/vector.h"
 #include "numeric/dense.h"
+#include "reduce/piece.h"
 
 /* ---- integrals over the surface ---- */
 
@@ -360,12 +361,6 @@ no_memory:
 
 /* ---- integrals over the volume: mass ---- */
 
-/* A part of an element in natural coordinates: a tetrahedron by its corners, a box by two, a wedge
- * by those of its lower triangle and the one above the first. */
-struct piece {
-    double corners[4][3];
-};
-
 /* sums for one place and element */
 struct mass_sum {
     const struct flexibility_place *place;
@@ -374,76 +369,6 @@ struct mass_sum {
     double (*nodes)[3];
     double sums[ELEMENT_MOST_NODES][3];
 };
-
-/* a point of the piece: of a tetrahedron with volume coordinates 1 - a - b - c, a, b, c; of a box
- * from the first corner to the second as the natural coordinates go from -1 to 1; of a wedge with
- * both */
-static void point_in_piece(enum element_type type, const struct piece *piece, const double at[3],
-                           double natural[3])
-{
-    for (int k = 0; k < 3; k++) {
-        double from = piece->corners[0][k], to = piece->corners[1][k];
-        natural[k] = from;
-        if (type == ELEMENT_TET10)
-            for (int i = 0; i < 3; i++)
-                natural[k] += at[i] * (piece->corners[i + 1][k] - from);
-        else if (type == ELEMENT_WEDGE15)
-            natural[k] += at[0] * (to - from) + at[1] * (piece->corners[2][k] - from) +
-                          0.5 * (1.0 + at[2]) * (piece->corners[3][k] - from);
-        else
-            natural[k] += 0.5 * (1.0 + at[k]) * (to - from);
-    }
-}
-
-/* four of the triangle, below and above */
-static void split_wedge(const struct piece *piece, struct piece parts[8])
-{
-    static const int PARTS[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-    const double(*corners)[3] = piece->corners;
-    double points[6][3];
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++) {
-            points[i][k] = corners[i][k];
-            points[3 + i][k] = 0.5 * (corners[i][k] + corners[(i + 1) % 3][k]);
-        }
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++) {
-            double half = 0.5 * (corners[3][k] - corners[0][k]), low = i < 4 ? 0.0 : half;
-            for (int c = 0; c < 3; c++)
-                parts[i].corners[c][k] = points[PARTS[i % 4][c]][k] + low;
-            parts[i].corners[3][k] = parts[i].corners[0][k] + half;
-        }
-}
-
-/* eight pieces of an eighth of the volume */
-static void split_piece(enum element_type type, const struct piece *piece, struct piece parts[8])
-{
-    if (type == ELEMENT_WEDGE15) {
-        split_wedge(piece, parts);
-        return;
-    }
-    if (type != ELEMENT_TET10) {
-        for (int i = 0; i < 8; i++)
-            for (int k = 0; k < 3; k++) {
-                double from = piece->corners[0][k], half = 0.5 * (piece->corners[1][k] - from);
-                parts[i].corners[0][k] = from + (i >> k & 1) * half;
-                parts[i].corners[1][k] = parts[i].corners[0][k] + half;
-            }
-        return;
-    }
-    /* corners 0 to 3, middles 01 02 03 12 13 23; four at the corners, four about the line 03-12 */
-    static const int PARTS[8][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
-                                    {6, 7, 4, 5}, {6, 7, 5, 9}, {6, 7, 9, 8}, {6, 7, 8, 4}};
-    static const int MIDDLES[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-    double points[10][3];
-    memcpy(points, piece->corners, sizeof piece->corners);
-    for (int m = 0; m < 6; m++)
-        for (int k = 0; k < 3; k++)
-            points[4 + m][k] = 0.5 * (points[MIDDLES[m][0]][k] + points[MIDDLES[m][1]][k]);
-    for (int i = 0; i < 8; i++)
-        for (int c = 0; c < 4; c++)
-            memcpy(parts[i].corners[c], points[PARTS[i][c]], sizeof points[0]);
-}
 
 static void add_mass_point(struct mass_sum *sum, const double x[3], double volume,
                            const double *shape)
@@ -463,7 +388,7 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
     /* points of the piece, its volume, and the nearest to the place */
     for (size_t p = 0; p < rule->point_count; p++) {
         double natural[3], gradient[ELEMENT_MOST_NODES][3], offset[3];
-        point_in_piece(sum->type, piece, rule->at[p], natural);
+        piece_point(sum->type, piece, rule->at[p], natural);
         element_shapes(sum->type, natural, shapes[p], gradient);
         element_map(rule->node_count, sum->nodes, shapes[p], gradient, &here[p]);
         sub3(here[p].position, sum->place->load.point, offset);
@@ -473,7 +398,7 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
     /* near: by eighths */
     if (splits < VOLUME_SPLITS && nearest < VOLUME_FAR * cbrt(volume)) {
         struct piece parts[8];
-        split_piece(sum->type, piece, parts);
+        piece_split(sum->type, piece, parts);
         for (int i = 0; i < 8; i++)
             add_piece(sum, &parts[i], scale / 8.0, splits + 1);
         return;
@@ -487,18 +412,13 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
 static void add_near_mass(const struct volume_rule *rule, const struct flexibility_place *place,
                           size_t element, double distance, double *momentum)
 {
-    static const struct piece WHOLE[ELEMENT_TYPES] = {
-        {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-        {{{-1, -1, -1}, {1, 1, 1}}},
-        {{{-1, -1, -1}, {1, 1, 1}}},
-        {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}}}};
     const struct solid_mesh *mesh = rule->mesh;
     enum element_type type = mesh->types[element];
     double nodes[ELEMENT_MOST_NODES][3];
     struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{0.0}}};
     if (distance < VOLUME_FAR * rule->radii[element]) {
         element_points(mesh, element, nodes);
-        add_piece(&sum, &WHOLE[type], 1.0, 0);
+        add_piece(&sum, &WHOLE_PIECE[type], 1.0, 0);
     } else {
         size_t first = rule->first[element], end = rule->first[element + 1];
         for (size_t i = first; i < end; i++)
