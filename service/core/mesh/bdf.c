@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "mesh/bdf_material.h"
 #include "mesh/builder.h"
 #include "mesh/element.h"
-#include "mesh/file_material.h"
 #include "mesh/grow.h"
 #include "model/vector.h"
 
@@ -39,17 +39,6 @@ struct bdf_frame {
     double origin[3], axes[3][3];
 };
 
-struct bdf_material {
-    size_t label, line;
-    const char *file;
-    bool has_density;
-    double young, poisson, density;
-};
-
-struct bdf_property {
-    size_t label, material;
-};
-
 /* Directions in which an SPC holds a node, a bit each. */
 struct bdf_hold {
     size_t set, node;
@@ -59,6 +48,12 @@ struct bdf_hold {
 /* SPCADD: a set has those of another. */
 struct bdf_sum {
     size_t set, member;
+};
+
+/* Where a solid stands. */
+struct bdf_place {
+    size_t label, line;
+    const char *file;
 };
 
 /* Names of cards that are not read, with the line of the first one. */
@@ -72,13 +67,13 @@ struct bdf {
     struct fault *fault;
     const char *file;
     int depth;
-    size_t grid_count, grid_room, frame_count, frame_room, material_count, material_room;
-    size_t property_count, property_room, hold_count, hold_room, sum_count, sum_room;
+    size_t grid_count, grid_room, frame_count, frame_room, hold_count, hold_room, sum_count,
+        sum_room;
     size_t other_count, other_room, path_count, path_room, shells;
+    size_t place_count, place_room;
+    struct bdf_place *places; /* of the solids */
     struct bdf_grid *grids;
     struct bdf_frame *frames;
-    struct bdf_material *materials;
-    struct bdf_property *properties;
     struct bdf_hold *holds;
     struct bdf_sum *sums;
     struct bdf_other *others;
@@ -86,18 +81,13 @@ struct bdf {
     const char *path; /* of the one that is read */
     size_t frame;     /* of GRDSET, with the directions that it holds */
     unsigned directions;
-    double mass_factor; /* PARAM, WTMASS */
+    struct bdf_materials materials;
 };
 
 enum { TRANSLATIONS = 7, MOST_CHAIN = 100 };
 
 /* more would be a file of gigabytes */
 static const size_t MOST_THRU = 20000000;
-
-/* G and E/2(1 + NU) may differ by rounded digits of a data sheet */
-static const double OTHER_SHEAR = 0.02;
-
-static const double INCH = 0.0254; /* m */
 
 static enum percuss_status bdf_out_of_memory(const struct bdf *bdf)
 {
@@ -205,13 +195,12 @@ static enum percuss_status read_frame_of_points(struct bdf *bdf, const struct bd
 
 /* Solids, with the card's node of each node in Gmsh's order. */
 static const struct bdf_solid {
-    const char *name;
     enum element_type type;
     size_t corners, nodes;
     unsigned char order[20];
-} SOLIDS[] = {{"CTETRA", ELEMENT_TET10, 4, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
-              {"CHEXA", ELEMENT_HEX20, 8, 20, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
-                                               12, 9, 13, 10, 14, 15, 16, 19, 17, 18}}};
+} SOLIDS[] = {
+    {ELEMENT_TET10, 4, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+    {ELEMENT_HEX20, 8, 20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 9, 13, 10, 14, 15, 16, 19, 17, 18}}};
 
 /* the nodes of the card, the number of mid nodes that it has */
 static bool read_solid_nodes(const struct bdf_card *card, const struct bdf_solid *solid,
@@ -253,16 +242,9 @@ static enum percuss_status check_middles(const struct bdf *bdf, const struct bdf
                       solid->corners == 4 ? "Tet10" : "Hex20");
 }
 
-static size_t property_part(struct bdf *bdf, size_t property)
-{
-    char name[MESH_NAME_SIZE];
-    snprintf(name, sizeof name, "PSOLID %zu", property);
-    return builder_part(&bdf->builder, name);
-}
-
 static enum percuss_status read_solid(struct bdf *bdf, const struct bdf_card *card)
 {
-    const struct bdf_solid *solid = &SOLIDS[strcmp(card->name, SOLIDS[0].name) != 0];
+    const struct bdf_solid *solid = &SOLIDS[card->name[1] != 'T'];
     size_t label, nodes[20], ordered[20], middles;
     if (!bdf_label(card, 2, &label))
         return PERCUSS_BAD_REQUEST;
@@ -276,10 +258,12 @@ static enum percuss_status read_solid(struct bdf *bdf, const struct bdf_card *ca
         size_t node = nodes[solid->order[i]];
         ordered[i] = node > 0 ? node : BUILDER_MIDDLE;
     }
-    size_t part = property_part(bdf, property);
-    return part != SIZE_MAX && builder_add_element(&bdf->builder, solid->type, label, part, ordered)
-               ? PERCUSS_OK
-               : bdf_out_of_memory(bdf);
+    size_t part = bdf_property_part(&bdf->builder, property);
+    if (part == SIZE_MAX || !GROW(bdf->places, bdf->place_count, bdf->place_room) ||
+        !builder_add_element(&bdf->builder, solid->type, label, part, ordered))
+        return bdf_out_of_memory(bdf);
+    bdf->places[bdf->place_count++] = (struct bdf_place){label, card->line, bdf->path};
+    return PERCUSS_OK;
 }
 
 /* the set of a kind and number */
@@ -382,7 +366,9 @@ static enum percuss_status read_spc(struct bdf *bdf, const struct bdf_card *card
     unsigned directions;
     if (!bdf_label(card, 2, &set))
         return PERCUSS_BAD_REQUEST;
-    for (size_t at = 3; at <= 6 && !bdf_is_blank(card, at); at += 3) {
+    for (size_t at = 3; at <= 6; at += 3) {
+        if (bdf_is_blank(card, at))
+            continue;
         if (!bdf_label(card, at, &node) || !bdf_directions(card, at + 1, &directions))
             return PERCUSS_BAD_REQUEST;
         if (!bdf_hold_node(bdf, set, node, directions))
@@ -429,63 +415,17 @@ static enum percuss_status read_rbe2(struct bdf *bdf, const struct bdf_card *car
 
 static enum percuss_status read_property(struct bdf *bdf, const struct bdf_card *card)
 {
-    struct bdf_property property = {0};
-    if (!bdf_label(card, 2, &property.label) || !bdf_label(card, 3, &property.material))
-        return PERCUSS_BAD_REQUEST;
-    if (!bdf_is_blank(card, 8) && strcmp(bdf_field(card, 8), "SMECH") != 0)
-        return bdf_refuse(card, "%zu: FCTN %s: must be a structure's, SMECH", property.label,
-                          bdf_field(card, 8));
-    if (!GROW(bdf->properties, bdf->property_count, bdf->property_room))
-        return bdf_out_of_memory(bdf);
-    bdf->properties[bdf->property_count++] = property;
-    return PERCUSS_OK;
-}
-
-/* two of E, G and NU give the third */
-static enum percuss_status check_elastic(const struct bdf_card *card, struct bdf_material *material)
-{
-    double *young = &material->young, *poisson = &material->poisson, shear = 0.0;
-    bool has_young = !bdf_is_blank(card, 3), has_shear = !bdf_is_blank(card, 4);
-    bool has_poisson = !bdf_is_blank(card, 5);
-    if (!bdf_real(card, 3, young) || !bdf_real(card, 4, &shear) || !bdf_real(card, 5, poisson))
-        return PERCUSS_BAD_REQUEST;
-    if (has_young + has_shear + has_poisson < 2)
-        return bdf_refuse(card, "%zu: two of E, G and NU must be there", material->label);
-    if (!has_young)
-        *young = 2.0 * shear * (1.0 + *poisson);
-    if (!has_poisson)
-        *poisson = 0.5 * *young / shear - 1.0;
-    if (has_young && has_shear && has_poisson &&
-        !(fabs(2.0 * shear * (1.0 + *poisson) - *young) <= OTHER_SHEAR * *young))
-        return bdf_refuse(card, "%zu: E %g, G %g, NU %g: G must be E/2(1 + NU) = %g, or blank",
-                          material->label, *young, shear, *poisson,
-                          0.5 * *young / (1.0 + *poisson));
-    return PERCUSS_OK;
+    return bdf_property_read(&bdf->materials, card, bdf->path);
 }
 
 static enum percuss_status read_material(struct bdf *bdf, const struct bdf_card *card)
 {
-    struct bdf_material material = {.line = card->line, .file = bdf->path};
-    if (!bdf_label(card, 2, &material.label) || !bdf_real(card, 6, &material.density))
-        return PERCUSS_BAD_REQUEST;
-    enum percuss_status status = check_elastic(card, &material);
-    if (status != PERCUSS_OK)
-        return status;
-    material.has_density = material.density != 0.0;
-    if (!GROW(bdf->materials, bdf->material_count, bdf->material_room))
-        return bdf_out_of_memory(bdf);
-    bdf->materials[bdf->material_count++] = material;
-    return PERCUSS_OK;
+    return bdf_material_read(&bdf->materials, card, bdf->path);
 }
 
-static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start);
-
-/* masses are RHO times WTMASS; other parameters do not change the body */
 static enum percuss_status read_parameter(struct bdf *bdf, const struct bdf_card *card)
 {
-    if (strcmp(bdf_field(card, 2), "WTMASS") != 0)
-        return PERCUSS_OK;
-    return bdf_real(card, 3, &bdf->mass_factor) ? PERCUSS_OK : PERCUSS_BAD_REQUEST;
+    return bdf_parameter_read(&bdf->materials, card);
 }
 
 /* cards that make a mesh of something else, so that passing them over would change the body */
@@ -509,6 +449,8 @@ static const struct {
              {"CORD2S", read_frame_of_points},
              {"CTETRA", read_solid},
              {"CHEXA", read_solid},
+             {"CTETRA_", read_solid}, /* as meshio writes them */
+             {"CHEXA_", read_solid},
              {"CTRIA3", read_shell},
              {"CTRIA6", read_shell},
              {"CTRIAR", read_shell},
@@ -553,6 +495,9 @@ static enum percuss_status read_card(struct bdf *bdf, const struct bdf_card *car
 
 /* ---- files ---- */
 
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start,
+                                         bool *begun);
+
 /* reads a file in place of the line that includes it */
 static enum percuss_status include_file(struct bdf *bdf, struct bdf_lines *lines,
                                         const struct bdf_card *card)
@@ -565,9 +510,14 @@ static enum percuss_status include_file(struct bdf *bdf, struct bdf_lines *lines
         return status;
     if (access(path, R_OK) != 0)
         return bdf_refuse(card, "%s: %s", path, strerror(errno));
+    enum bdf_start start = lines->alone ? BDF_WHOLE : lines->bulk ? BDF_BULK : BDF_CONTROL;
+    bool begun = false;
     bdf->depth++;
-    status = read_bdf_file(bdf, path, lines->bulk ? BDF_BULK : BDF_CONTROL);
+    status = read_bdf_file(bdf, path, start, &begun);
     bdf->depth--;
+    /* BEGIN BULK of a head counts for the file that includes it */
+    lines->alone = lines->alone && !begun;
+    lines->bulk = lines->bulk || begun;
     return status;
 }
 
@@ -580,7 +530,9 @@ static bool keep_path(struct bdf *bdf, const char *path)
     return bdf->paths[bdf->path_count] && ++bdf->path_count;
 }
 
-static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start)
+/* *begun: the file has BEGIN BULK, or one that it includes */
+static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum bdf_start start,
+                                         bool *begun)
 {
     struct bdf_lines lines;
     struct bdf_card card = {0};
@@ -597,6 +549,7 @@ static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum
         if (status != PERCUSS_OK)
             break;
     }
+    *begun = lines.bulk && !lines.alone;
     bdf->path = outer;
     bdf_card_free(&card);
     scan_close(&lines.scan);
@@ -606,10 +559,10 @@ static enum percuss_status read_bdf_file(struct bdf *bdf, const char *path, enum
 static void bdf_free(struct bdf *bdf)
 {
     builder_free(&bdf->builder);
+    free(bdf->places);
     free(bdf->grids);
     free(bdf->frames);
-    free(bdf->materials);
-    free(bdf->properties);
+    bdf_materials_free(&bdf->materials);
     free(bdf->holds);
     free(bdf->sums);
     free(bdf->others);
@@ -744,6 +697,42 @@ static enum percuss_status know_frame(struct bdf *bdf, struct bdf_frame *frame, 
     return PERCUSS_OK;
 }
 
+/* a GRID that is there again must be in the same place; `grid` follows its like */
+static enum percuss_status check_same(const struct bdf *bdf, const struct bdf_grid *grid,
+                                      const double before[3], const double place[3])
+{
+    const struct bdf_grid *other = grid - 1;
+    if (before[0] == place[0] && before[1] == place[1] && before[2] == place[2])
+        return PERCUSS_OK;
+    return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                     "%s:%zu: GRID %zu: is at %g, %g, %g and by %s:%zu at %g, %g, %g: each must "
+                     "have a number of its own",
+                     grid->file, grid->line, grid->label, place[0], place[1], place[2], other->file,
+                     other->line, before[0], before[1], before[2]);
+}
+
+static int compare_places(const void *left, const void *right)
+{
+    const struct bdf_place *a = left, *b = right;
+    return a->label < b->label ? -1 : a->label > b->label;
+}
+
+/* each solid must have a label of its own */
+static enum percuss_status check_labels(struct bdf *bdf)
+{
+    if (bdf->place_count)
+        qsort(bdf->places, bdf->place_count, sizeof *bdf->places, compare_places);
+    for (size_t i = 1; i < bdf->place_count; i++) {
+        const struct bdf_place *a = &bdf->places[i - 1], *b = a + 1;
+        if (a->label == b->label)
+            return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                             "%s:%zu: element %zu: is also at %s:%zu: each must have a number of "
+                             "its own",
+                             b->file, b->line, b->label, a->file, a->line);
+    }
+    return PERCUSS_OK;
+}
+
 /* GRIDs as nodes in the basic frame */
 static enum percuss_status place_grids(struct bdf *bdf)
 {
@@ -756,12 +745,15 @@ static enum percuss_status place_grids(struct bdf *bdf)
             return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
                              "%s:%zu: coordinate system %zu: is there twice", bdf->frames[i].file,
                              bdf->frames[i].line, bdf->frames[i].label);
+    double place[3], before[3] = {0};
     for (size_t i = 0; i < bdf->grid_count; i++) {
-        double place[3];
         const struct bdf_grid *grid = &bdf->grids[i];
         enum percuss_status status = place_grid(bdf, grid, 0, place);
+        if (status == PERCUSS_OK && i > 0 && grid[-1].label == grid->label)
+            status = check_same(bdf, grid, before, place);
         if (status != PERCUSS_OK)
             return status;
+        memcpy(before, place, sizeof before);
         if (!builder_add_node(&bdf->builder, grid->label, place) ||
             (!grid->own_hold && (bdf->directions & TRANSLATIONS) &&
              !bdf_hold_node(bdf, 0, grid->label, bdf->directions)))
@@ -770,7 +762,7 @@ static enum percuss_status place_grids(struct bdf *bdf)
     return PERCUSS_OK;
 }
 
-/* ---- sets, materials, notes ---- */
+/* ---- sets and notes ---- */
 
 static int compare_holds(const void *left, const void *right)
 {
@@ -815,7 +807,8 @@ static bool name_held(struct bdf *bdf, size_t first, size_t end)
     for (size_t i = first; i < end && set != SIZE_MAX; i++)
         if (!builder_append(&bdf->builder.sets[set].labels, bdf->holds[i].node))
             return false;
-    return set != SIZE_MAX;
+    return set != SIZE_MAX &&
+           builder_remark(&bdf->builder, "%s is not held here: --fixed '%s' holds it", name, name);
 }
 
 static bool name_all_held(struct bdf *bdf)
@@ -833,97 +826,65 @@ static bool name_all_held(struct bdf *bdf)
     return true;
 }
 
-static enum percuss_status give_part_material(struct bdf *bdf, const struct bdf_material *material,
-                                              double unit, struct mesh_part *part)
+/* names of the cards that are not read, with the line of the first one of each */
+static void name_others(const struct bdf *bdf, char names[MESH_REMARK_SIZE])
 {
-    char where[BDF_PATH_SIZE + 32], name[48];
-    snprintf(where, sizeof where, "%s:%zu", material->file, material->line);
-    snprintf(name, sizeof name, "MAT1 %zu", material->label);
-    struct file_material stated = {
-        .file = where,
-        .name = name,
-        .young_field = "E",
-        .density_field = "RHO",
-        .young = material->young,
-        .poisson = material->poisson,
-        .density = material->has_density ? material->density * bdf->mass_factor : NAN};
-    part->has_material = material->has_density;
-    enum percuss_status status = file_material_convert(&stated, unit, &part->material, bdf->fault);
-    if (!part->has_material)
-        snprintf(part->lacks, sizeof part->lacks, "%s has no RHO", name);
-    /* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then
-     */
-    bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;
-    if (status == PERCUSS_OK && imperial &&
-        !builder_remark(&bdf->builder,
-                        "%s: %s is read in newtons: E %.4g Pa, RHO %.4g kg/m^3; of a deck in "
-                        "pounds-force give the material yourself",
-                        where, name, part->material.young, part->material.density))
-        return bdf_out_of_memory(bdf);
-    return status;
+    size_t filled = 0, i = 0;
+    names[0] = '\0';
+    for (; i < bdf->other_count && filled < MESH_REMARK_SIZE - 100; i++)
+        filled += (size_t)snprintf(names + filled, MESH_REMARK_SIZE - filled, "%s%s (line %zu)",
+                                   i ? ", " : "", bdf->others[i].name, bdf->others[i].line);
+    if (i < bdf->other_count)
+        snprintf(names + filled, MESH_REMARK_SIZE - filled, " and more");
 }
 
-/* the MAT1 of each PSOLID that has elements; other materials are the caller's to state */
-static enum percuss_status give_materials(struct bdf *bdf, double unit)
-{
-    size_t parts = bdf->builder.part_count;
-    for (size_t i = 0; i < bdf->property_count; i++) {
-        const struct bdf_property *property = &bdf->properties[i];
-        size_t part = property_part(bdf, property->label);
-        if (part == SIZE_MAX)
-            return bdf_out_of_memory(bdf);
-        if (part >= parts)
-            continue;
-        for (size_t m = 0; m < bdf->material_count; m++) {
-            if (bdf->materials[m].label != property->material)
-                continue;
-            enum percuss_status status =
-                give_part_material(bdf, &bdf->materials[m], unit, &bdf->builder.parts[part]);
-            if (status != PERCUSS_OK)
-                return status;
-        }
-    }
-    return PERCUSS_OK;
-}
-
-/* one note of the cards that are not read */
 static bool remark_others(struct bdf *bdf)
 {
-    char names[MESH_REMARK_SIZE] = "";
-    size_t filled = 0, i = 0;
-    for (; i < bdf->other_count && filled < sizeof names - 100; i++)
-        filled += (size_t)snprintf(names + filled, sizeof names - filled, "%s%s (line %zu)",
-                                   i ? ", " : "", bdf->others[i].name, bdf->others[i].line);
-    if (bdf->other_count == 0)
-        return true;
-    return builder_remark(&bdf->builder, "cards that are not read, and no part of the body: %s%s",
-                          names, i < bdf->other_count ? " and more" : "");
+    char names[MESH_REMARK_SIZE];
+    name_others(bdf, names);
+    return bdf->other_count == 0 ||
+           builder_remark(&bdf->builder, "cards that are not read, and no part of the body: %s",
+                          names);
 }
 
-/* a body of shells alone */
+/* no solid: what the file has instead */
 static enum percuss_status check_solids(const struct bdf *bdf)
 {
-    if (bdf->builder.element_count > 0 || bdf->shells == 0)
+    char names[MESH_REMARK_SIZE];
+    if (bdf->builder.element_count > 0)
         return PERCUSS_OK;
+    if (bdf->shells > 0)
+        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                         "%s: has %zu shells (CQUAD4, CTRIA3, ...) and no solid: mesh the volume "
+                         "with CTETRA of 10 or CHEXA of 20 nodes, or give the part as STEP",
+                         bdf->file, bdf->shells);
+    if (bdf->grid_count == 0 && bdf->other_count == 0)
+        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
+                         "%s: no cards of bulk data: must have BEGIN BULK, then GRID, CTETRA or "
+                         "CHEXA, PSOLID, MAT1",
+                         bdf->file);
+    name_others(bdf, names);
     return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
-                     "%s: has %zu shells (CQUAD4, CTRIA3, ...) and no solid: mesh the volume with "
-                     "CTETRA of 10 or CHEXA of 20 nodes, or give the part as STEP",
-                     bdf->file, bdf->shells);
+                     "%s: no solid elements: must have CTETRA of 10 or CHEXA of 20 nodes%s%s",
+                     bdf->file, names[0] ? "; cards that are not read: " : "", names);
 }
 
 enum percuss_status bdf_read(const char *path, double unit, bool raise, struct solid_mesh *mesh,
                              struct fault *fault)
 {
-    struct bdf bdf = {.fault = fault, .file = path, .mass_factor = 1.0};
+    struct bdf bdf = {.fault = fault, .file = path, .materials = {.mass_factor = 1.0}};
     bdf.builder.raise = raise;
     memset(mesh, 0, sizeof *mesh);
-    enum percuss_status status = read_bdf_file(&bdf, path, BDF_WHOLE);
+    bool begun;
+    enum percuss_status status = read_bdf_file(&bdf, path, BDF_WHOLE, &begun);
     if (status == PERCUSS_OK)
         status = check_solids(&bdf);
     if (status == PERCUSS_OK)
+        status = check_labels(&bdf);
+    if (status == PERCUSS_OK)
         status = place_grids(&bdf);
     if (status == PERCUSS_OK)
-        status = give_materials(&bdf, unit);
+        status = bdf_materials_give(&bdf.materials, unit, &bdf.builder, fault);
     if (status == PERCUSS_OK && !(name_all_held(&bdf) && remark_others(&bdf)))
         status = bdf_out_of_memory(&bdf);
     if (status == PERCUSS_OK)

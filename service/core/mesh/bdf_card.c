@@ -82,6 +82,13 @@ static bool begins_bulk(const char *text)
     return strcmp(word, "BEGIN") == 0;
 }
 
+static bool ends_executive(const char *text)
+{
+    char word[BDF_FIELD_SIZE];
+    first_word(text, word);
+    return strcmp(word, "CEND") == 0;
+}
+
 enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, enum bdf_start start,
                              struct fault *fault)
 {
@@ -89,13 +96,13 @@ enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, enum bdf
     enum percuss_status status = scan_open(path, &lines->scan, fault);
     if (status != PERCUSS_OK)
         return status;
-    /* a mesh alone has neither control nor BEGIN BULK */
     struct scan front = lines->scan;
-    lines->bulk = start != BDF_CONTROL;
-    while (start == BDF_WHOLE && lines->bulk && hold_line(lines, &status)) {
-        lines->bulk = !begins_bulk(lines->text);
+    lines->alone = start == BDF_WHOLE;
+    while (lines->alone && hold_line(lines, &status)) {
+        lines->alone = !begins_bulk(lines->text) && !ends_executive(lines->text);
         lines->held = false;
     }
+    lines->bulk = start == BDF_BULK || lines->alone;
     if (status != PERCUSS_OK) {
         scan_close(&lines->scan);
         return status;
@@ -257,7 +264,7 @@ static bool hold_card(struct bdf_lines *lines, enum percuss_status *status)
     char word[BDF_FIELD_SIZE];
     while (hold_line(lines, status)) {
         first_word(lines->text, word);
-        if (lines->bulk || strcmp(word, "INCLUDE") == 0)
+        if (lines->bulk || strcmp(word, "INCLUDE") == 0 || strcmp(word, "PARAM") == 0)
             return true;
         lines->bulk = begins_bulk(lines->text);
         lines->held = false;
@@ -291,7 +298,8 @@ bool bdf_next(struct bdf_lines *lines, struct bdf_card *card, enum percuss_statu
     do {
         if (!take_line(lines, card, &above, status))
             return false;
-    } while (hold_line(lines, status) && continues(lines->text));
+        /* lines of control may be indented, and continue nothing */
+    } while (lines->bulk && hold_line(lines, status) && continues(lines->text));
     return *status == PERCUSS_OK;
 }
 

@@ -25,14 +25,15 @@ struct bdf_card {
 /* Reading of one file. */
 struct bdf_lines {
     struct scan scan;
-    bool bulk; /* past BEGIN BULK, or there is none in the file */
-    bool held; /* `text` is read already */
+    bool bulk;  /* past BEGIN BULK, or `alone` */
+    bool alone; /* a mesh alone: the file has neither control nor BEGIN BULK */
+    bool held;  /* `text` is read already */
     size_t line;
     char text[BDF_LINE_SIZE]; /* without comment, tabs as spaces */
 };
 
-/* How a file begins: a whole one with statements of control, unless it has no BEGIN BULK, an
- * included one with what stands where it is named. */
+/* How a file begins: a whole one with statements of control, unless it has neither CEND nor BEGIN
+ * BULK, an included one with what stands where it is named. */
 enum bdf_start { BDF_WHOLE, BDF_CONTROL, BDF_BULK };
 
 /* Opens a file. PERCUSS_BAD_REQUEST: it cannot be read. Close lines->scan. */
@@ -41,7 +42,7 @@ enum percuss_status bdf_open(struct bdf_lines *lines, const char *path, enum bdf
 
 /* The next card of bulk data; false: the file or its data (ENDDATA) end, or, with a message in
  * *status, a line cannot be understood. A line INCLUDE is a card of this name, whose path
- * bdf_include gives. */
+ * bdf_include gives. PARAM is a card above BEGIN BULK, too. */
 bool bdf_next(struct bdf_lines *lines, struct bdf_card *card, enum percuss_status *status);
 
 /* The path on the line INCLUDE that has just been read, beside the file that names it. */

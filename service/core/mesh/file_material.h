@@ -6,6 +6,7 @@
 #define PERCUSS_MESH_FILE_MATERIAL_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/fault.h"
 #include "model/material.h"
@@ -17,9 +18,14 @@ struct file_material {
 };
 
 /* The material in SI, elastic; `unit`: m of one unit of length. Numbers that are NAN are not
- * stated, and stay so. PERCUSS_BAD_REQUEST: a modulus or density that no solid has, as in other
- * units. */
+ * stated, and stay so. PERCUSS_BAD_REQUEST: a modulus, density or speed of waves that no solid has,
+ * as in other units. */
 enum percuss_status file_material_convert(const struct file_material *from, double unit,
                                           struct material *to, struct fault *fault);
+
+/* What may be wrong with a material that was converted, for the user; "": nothing. A deck in inches
+ * may be in pounds-force, and waves as slow as in rubber may come of a modulus in another unit. */
+void file_material_doubt(const struct file_material *from, double unit, const struct material *to,
+                         char *doubt, size_t size);
 
 #endif

@@ -66,6 +66,12 @@ static const char *suffix_of(const char *path)
     return dot && (!slash || dot > slash) ? dot : "";
 }
 
+/* Whether a line is the section $NOD of Gmsh's first format, and no comment like "$NODES". */
+static bool is_nod(const char *line)
+{
+    return strncmp(line, "$NOD", 4) == 0 && (line[4] == '\0' || isspace((unsigned char)line[4]));
+}
+
 /* The first line that says something: not empty, no comment of a deck ("**") or of bulk data ("$ ",
  * "$*", "$$"). */
 static void first_line(const char *path, char line[BEGINNING_SIZE])
@@ -76,8 +82,7 @@ static void first_line(const char *path, char line[BEGINNING_SIZE])
         size_t blank = strspn(line, " \t\r\n\xEF\xBB\xBF");
         memmove(line, line + blank, strlen(line + blank) + 1);
         bool comment = strncmp(line, "**", 2) == 0 ||
-                       (line[0] == '$' && strncmp(line, "$MeshFormat", 11) != 0 &&
-                        strncmp(line, "$NOD", 4) != 0);
+                       (line[0] == '$' && strncmp(line, "$MeshFormat", 11) != 0 && !is_nod(line));
         if (line[0] && !comment)
             break;
     }

@@ -69,6 +69,9 @@ static void reads_every_form_of_a_card(void **state)
         "CTETRA,7,3,1,2,3,4,5,6 $ first\n,7,8,9,10\n"};
     for (size_t i = 0; i < COUNT(ELEMENTS); i++)
         is_the_tetrahedron(deck(GRIDS, ELEMENTS[i]));
+    /* meshio's name, and a comment that is not Gmsh's $NOD */
+    is_the_tetrahedron(file_with(deck(GRIDS, TET), "CTETRA", "CTETRA_"));
+    is_the_tetrahedron(file_with(deck(GRIDS, TET), "SOL", "$NODES of the part\nSOL"));
     /* a mesh alone, and lines of Windows */
     snprintf(text, sizeof text, "$ mesh\n%s%s", GRIDS, TET);
     is_the_tetrahedron(text);
@@ -135,6 +138,7 @@ static void places_nodes_in_their_systems(void **state)
     assert_int_equal(mesh.set_count, 1);
     assert_string_equal(mesh.set[0].name, "GRID PS");
     assert_int_equal(mesh.set[0].count, 10);
+    assert_string_equal(mesh.remarks[0], "GRID PS is not held here: --fixed 'GRID PS' holds it");
     solid_mesh_free(&mesh);
     /* and what leads nowhere */
     snprintf(grids, sizeof grids, "%s%s%s", FRAMES, GRIDS, "GRID,77,12\nGRID,78,15\n");
@@ -173,12 +177,16 @@ static void takes_the_material(void **state)
 {
     (void)state;
     char wrong[1024];
+    struct solid_mesh refused;
     assert_string_equal(material_of(MATERIAL).name, "MAT1 5");
     /* two of three; a weight with its factor; 210/2.6 as a data sheet rounds it */
     material_of("PSOLID,3,5\nMAT1,5,210.+3,80769.230769230769,,7.8-9\n");
     material_of("PSOLID,3,5\nMAT1*,5,,80769.230769230769,.3,*\n*,7.8-9\n");
     material_of("PSOLID,3,5\nMAT1,5,210.+3,80800.,.3,7.8-9\n");
     material_of("PARAM,WTMASS,1.-4\nPSOLID,3,5\nMAT1,5,210.+3,,.3,7.8-5\n");
+    material_of("param,wtmass,1.-4\npsolid,3,5,,,,,smech\nmat1,5,210.+3,,.3,7.8-5\n");
+    /* cards that are there again as they were */
+    material_of("PSOLID,3,5\nMAT1,5,210.+3,,.3,7.8-9\nMAT1,5,2.1+5,,.30,7.8-9\nPSOLID,3,5\n");
     snprintf(wrong, sizeof wrong, "%s%s", TET, MATERIAL);
     deck(GRIDS, wrong);
     file_refused(".bdf", file_with(text, "210.+3,,.3", "210.+3,,"),
@@ -189,11 +197,33 @@ static void takes_the_material(void **state)
                  ".bdf:18: MAT1 5: RHO: 7800 is 7.8e+15 kg/m^3 in units of N, s and");
     file_refused(".bdf", file_with(text, "PSOLID,3,5", "PSOLID,3,5,,,,,PFLUID"),
                  "PSOLID: 3: FCTN PFLUID: must be a structure's, SMECH");
+    file_refused(".bdf", file_with(text, "MAT1,5", "MAT1,5,70.+3,,.33,2.7-9\nMAT1,5"),
+                 ".bdf:19: MAT1 5: differs from that of ");
+    assert_non_null(strstr(file_fault.text, ".bdf:18: each must have a number of its own"));
+    file_refused(".bdf", file_with(text, "MAT1,5", "PSOLID,3,6\nMAT1,5"),
+                 ".bdf:18: PSOLID 3: differs from that of ");
+    /* a modulus in pascals beside a density in t/mm^3: each would do alone, in m and in mm */
+    assert_int_equal(
+        file_read(".bdf", file_with(text, "210.+3,,.3,7.8-9", "2.1+11,,.3,7.8"), 1.0, &refused),
+        PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(file_fault.text, "waves of 164083 m/s: must be at most 20000"));
     /* without a density it is the caller's to state */
     struct solid_mesh mesh;
     read_deck(file_with(text, "7.8-9", ""), &mesh);
     assert_false(mesh.part[0].has_material);
     assert_string_equal(mesh.part[0].lacks, "MAT1 5 has no RHO");
+    solid_mesh_free(&mesh);
+    /* and slow waves are told, as those of steel in GPa are: 164 m/s */
+    read_deck(file_with(text, "210.+3", "210."), &mesh);
+    assert_int_equal(mesh.remark_count, 1);
+    assert_non_null(strstr(mesh.remarks[0], "waves of 164 m/s, as in rubber and foam"));
+    solid_mesh_free(&mesh);
+    read_deck(file_with(text, "7.8-9", "7.8-9"), &mesh);
+    assert_int_equal(mesh.remark_count, 0);
+    solid_mesh_free(&mesh);
+    /* masses of the whole deck have their factor above BEGIN BULK, too, beside indented lines */
+    read_deck(file_with(text, "TITLE =", "  PARAM,WTMASS,1.5\n        LABEL = A\nTITLE ="), &mesh);
+    near_relative(mesh.part[0].material.density, 1.5 * 7800.0, 1e-12);
     solid_mesh_free(&mesh);
     /* inches: their decks are in pounds, most of them */
     assert_int_equal(file_read(".bdf", file_with(text, "7.8-9", "2.59-4"), 0.0254, &mesh), 0);
@@ -216,7 +246,7 @@ static void names_what_holds(void **state)
     char rest[1024];
     snprintf(rest, sizeof rest, "%s%s", TET,
              "SPC1,1,123456,1,2,3,5,THRU,7\n"
-             "SPC,2,4,123,0.,8,12,0.\nSPC,2,8,3,0.\nSPCADD,9,1,2\n"
+             "SPC,2,4,123,0.,8,12,0.\nSPC,2,,,,8,3,0.\nSPCADD,9,1,2\n"
              "SPC1,4,3,1,2\nRBE2,20,99,123456,1,2,3,6.5-6\n"
              "CTRIA6,30,8,1,2,3,5,6,7\nCONM2,40,1,,5.\n");
     read_deck(deck(GRIDS, rest), &mesh);
@@ -227,11 +257,12 @@ static void names_what_holds(void **state)
     assert_int_equal(set_named(&mesh, "PSHELL 8")->count, 6);
     /* one direction alone is not what --fixed holds */
     assert_null(set_named(&mesh, "SPC 4"));
-    assert_int_equal(mesh.remark_count, 2);
-    assert_string_equal(mesh.remarks[0],
+    assert_int_equal(mesh.remark_count, 5);
+    assert_string_equal(mesh.remarks[0], "SPC 1 is not held here: --fixed 'SPC 1' holds it");
+    assert_string_equal(mesh.remarks[2],
                         "SPC 4 holds node 1 in some directions alone, which --fixed "
                         "cannot: this set is not taken");
-    assert_string_equal(mesh.remarks[1],
+    assert_string_equal(mesh.remarks[4],
                         "cards that are not read, and no part of the body: RBE2 (line "
                         "22), CONM2 (line 24)");
     solid_mesh_free(&mesh);
@@ -261,7 +292,7 @@ static void raises_what_is_asked_for(void **state)
         near(bulk.smallest_det, 1.0, 1e-12);
         /* the face that is held has its mid nodes, but for the one of the file that is not named */
         assert_int_equal(mesh.set[0].count, i == 0 ? 6 : 5);
-        assert_non_null(strstr(mesh.remarks[0], "linear elements were raised to second order"));
+        assert_non_null(strstr(mesh.remarks[1], "linear elements were raised to second order"));
         solid_mesh_free(&mesh);
     }
 }
@@ -306,6 +337,20 @@ static void reads_included_files(void **state)
     fclose(stream);
     snprintf(main_deck, sizeof main_deck, "INCLUDE '%s'\nBEGIN BULK\nGRID,1,,x\n", name);
     file_refused(".bdf", main_deck, ".bdf:3: GRID: field 4: x: must be a number");
+    /* a head has control and BEGIN BULK, for a file alone or one that has control too */
+    stream = fopen(name, "w");
+    fprintf(stream, "SOL 103\nCEND\nPARAM,WTMASS,2.\nBEGIN BULK\n%s%s", MATERIAL, GRIDS);
+    fclose(stream);
+    for (int i = 0; i < 2; i++) {
+        snprintf(main_deck, sizeof main_deck, "%sINCLUDE '%s'\n%s",
+                 i ? "SOL 103\nCEND\nSPC = 3\n" : "", name, TET);
+        read_deck(main_deck, &mesh);
+        near_relative(mesh.part[0].material.density, 15600.0, 1e-12);
+        assert_int_equal(mesh.remark_count, 0);
+        solid_mesh_free(&mesh);
+    }
+    file_refused(".bdf", "SOL 103\nCEND\nSPC = 3\n",
+                 ": no cards of bulk data: must have BEGIN BULK");
     snprintf(main_deck, sizeof main_deck, "BEGIN BULK\nINCLUDE '%s'\n", name);
     unlink(name);
     file_refused(".bdf", main_deck, ".bdf:2: INCLUDE: ");
@@ -332,7 +377,14 @@ static void refuses_with_the_line(void **state)
                  "SPC1: 9 THRU 2: must be two numbers");
     file_refused(".bdf", deck(GRIDS, "CTETRA,7,3,1,2,3,4,5,6\n,7,8,9,11\n"),
                  ": element 7: node 11: must be one of the file's nodes");
+    file_refused(".bdf", deck(GRIDS, "CBAR,7,3,1,2\n"),
+                 ": no solid elements: must have CTETRA of 10 or CHEXA of 20 nodes; cards that are "
+                 "not read: CBAR (line 15)");
     deck(GRIDS, TET);
+    file_refused(".bdf", file_with(text, "GRID,3", "GRID,2,,1.,0.,.1\nGRID,3"),
+                 ":7: GRID 2: is at 1, 0, 0.1 and by ");
+    file_refused(".bdf", file_with(text, "ENDDATA", "CTETRA,7,3,1,2,3,4,5,6\n,7,8,9,10\nENDDATA"),
+                 ".bdf:17: element 7: is also at ");
     file_survives(".bdf", text, strlen(text), 100);
 }
 
