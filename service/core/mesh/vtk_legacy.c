@@ -46,9 +46,15 @@ struct vtk {
     double version;
     struct numbers points, offsets, nodes, types, groups;
     char group_name[VTK_WORD / 2];
+    int group_rank;    /* of the array that names the groups: see rank_groups */
     size_t data_count; /* tuples of the data under way */
     bool of_cells;     /* they are of cells */
 };
+
+static enum percuss_status vtk_out_of_memory(const struct vtk *vtk)
+{
+    return fault_set(vtk->scan.fault, PERCUSS_INTERNAL, "%s: out of memory", vtk->scan.file);
+}
 
 static const struct vtk_type *find_type(const char *name)
 {
@@ -95,7 +101,7 @@ static enum percuss_status take_numbers(struct vtk *vtk, const char *subject,
     numbers->count = count;
     numbers->values = malloc((count + 1) * sizeof *numbers->values);
     if (!numbers->values)
-        return fault_set(scan->fault, PERCUSS_INTERNAL, "%s: out of memory", scan->file);
+        return vtk_out_of_memory(vtk);
     const unsigned char *bytes = (const unsigned char *)scan->text + scan->at;
     for (size_t i = 0; i < count; i++) {
         if (vtk->binary)
@@ -188,7 +194,7 @@ static enum percuss_status read_joined_cells(struct vtk *vtk, const char *line, 
         return refuse_vtk_line(vtk, line, "CELLS, a number of cells and one of numbers");
     vtk->offsets.values = malloc((cells + 1) * sizeof *vtk->offsets.values);
     if (!vtk->offsets.values)
-        return fault_set(vtk->scan.fault, PERCUSS_INTERNAL, "%s: out of memory", vtk->scan.file);
+        return vtk_out_of_memory(vtk);
     size_t at = 0, to = 0;
     for (size_t cell = 0; cell < cells; cell++) {
         double count = at < total ? vtk->nodes.values[at++] : -1.0;
@@ -225,24 +231,121 @@ static enum percuss_status read_cell_types(struct vtk *vtk, const char *line)
 static enum percuss_status read_data_count(struct vtk *vtk, const char *line)
 {
     vtk->of_cells = toupper((unsigned char)line[0]) == 'C';
-    return sscanf(line, "%*s %zu", &vtk->data_count) == 1
-               ? PERCUSS_OK
-               : refuse_vtk_line(vtk, line, "CELL_DATA or POINT_DATA and a number");
+    if (sscanf(line, "%*s %zu", &vtk->data_count) != 1)
+        return refuse_vtk_line(vtk, line, "CELL_DATA or POINT_DATA and a number");
+    if (vtk->of_cells && vtk->types.values && vtk->data_count != vtk->types.count)
+        return scan_refuse(&vtk->scan, "%.60s: must be of all %zu cells", line, vtk->types.count);
+    return PERCUSS_OK;
 }
 
-/* one array; the first whole numbers of cells are their groups */
+/* ---- data of points and cells ---- */
+
+static int compare_numbers(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return a < b ? -1 : a > b;
+}
+
+/* whether more than half as many values as cells differ, one cell aside; false with *whole false:
+ * out of memory */
+static bool numbers_cells(const struct numbers *numbers, bool *whole)
+{
+    size_t size = numbers->count * sizeof(double), differ = numbers->count > 0;
+    double *sorted = malloc(size + 1);
+    *whole = sorted != NULL;
+    if (!sorted)
+        return false;
+    memcpy(sorted, numbers->values, size);
+    if (numbers->count)
+        qsort(sorted, numbers->count, sizeof *sorted, compare_numbers);
+    for (size_t i = 1; i < numbers->count; i++)
+        differ += sorted[i] != sorted[i - 1];
+    free(sorted);
+    return differ > 1 + numbers->count / 2;
+}
+
+/* How well the whole numbers of cells name groups: 2: their name says that they do; 1: others; 0:
+ * each cell has a number of its own, or VTK keeps its books by them, as in vtkGhostType; -1: out of
+ * memory. */
+static int rank_groups(const char *name, const struct numbers *numbers)
+{
+    static const char *const NAMES[] = {"material", "CellEntityIds", "physical"};
+    bool whole;
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
+        if (strcasestr(name, NAMES[i]))
+            return 2;
+    bool each = numbers_cells(numbers, &whole);
+    return !whole ? -1 : !each && strncmp(name, "vtk", 3) != 0;
+}
+
+/* whole numbers of cells: the first array of the best rank names the groups; takes *numbers */
+static enum percuss_status offer_groups(struct vtk *vtk, const char *line, const char *name,
+                                        struct numbers *numbers)
+{
+    int rank = rank_groups(name, numbers);
+    if (rank < 0)
+        return vtk_out_of_memory(vtk);
+    if (numbers->count != vtk->data_count)
+        return scan_refuse(&vtk->scan, "%.60s: must be of all %zu cells", line, vtk->data_count);
+    if (rank <= vtk->group_rank)
+        return PERCUSS_OK;
+    drop_numbers(&vtk->groups);
+    vtk->groups = *numbers;
+    *numbers = (struct numbers){0};
+    vtk->group_rank = rank;
+    snprintf(vtk->group_name, sizeof vtk->group_name, "%s", name);
+    return PERCUSS_OK;
+}
+
+/* The length of a string of binary files: its first byte's upper two bits say whether 1, 2, 4 or 8
+ * bytes have it. False: the file ends before. */
+static bool binary_length(const struct vtk *vtk, size_t *bytes, size_t *length)
+{
+    const unsigned char *at = (const unsigned char *)vtk->scan.text + vtk->scan.at;
+    size_t left = vtk->scan.size - vtk->scan.at;
+    if (left == 0)
+        return false;
+    *bytes = (size_t)1 << (3 - (at[0] >> 6));
+    *length = at[0] & 63u;
+    for (size_t i = 1; i < *bytes && i < left; i++)
+        *length = *length << 8 | at[i];
+    return *bytes <= left && *length <= left - *bytes;
+}
+
+/* passes over texts: lines, or lengths and letters */
+static enum percuss_status skip_strings(struct vtk *vtk, const char *line, size_t count)
+{
+    char text[VTK_LINE];
+    for (size_t i = 0; i < count; i++) {
+        size_t bytes = 0, length = 0;
+        if (vtk->binary ? !binary_length(vtk, &bytes, &length)
+                        : !scan_line(&vtk->scan, text, sizeof text))
+            return refuse_vtk_line(vtk, line, "followed by as many texts as it says");
+        vtk->scan.at += bytes + length;
+    }
+    return PERCUSS_OK;
+}
+
+/* one array; whole numbers of cells may be their groups */
 static enum percuss_status read_data(struct vtk *vtk, const char *line, const char *name,
                                      size_t tuples, size_t components, const char *type)
 {
     struct numbers numbers = {0};
-    enum percuss_status status = read_array(vtk, line, tuples, components, type, &numbers);
-    const struct vtk_type *known = find_type(type);
-    if (status == PERCUSS_OK && vtk->of_cells && components == 1 && !vtk->groups.values &&
-        known->kind != 'f') {
-        vtk->groups = numbers;
-        snprintf(vtk->group_name, sizeof vtk->group_name, "%s", name);
-        return PERCUSS_OK;
+    if (components == 0 || tuples > SIZE_MAX / components)
+        return refuse_vtk_line(vtk, line, "of fewer numbers");
+    if (strcasecmp(type, "string") == 0)
+        return skip_strings(vtk, line, tuples * components);
+    /* binary files have eight of them in a byte */
+    bool bits = strcasecmp(type, "bit") == 0;
+    if (bits && vtk->binary) {
+        tuples = tuples * components / 8 + (tuples * components % 8 > 0);
+        components = 1;
     }
+    enum percuss_status status =
+        read_array(vtk, line, tuples, components, bits ? "unsigned_char" : type, &numbers);
+    if (status == PERCUSS_OK && vtk->of_cells && components == 1 && !bits &&
+        find_type(type)->kind != 'f')
+        status = offer_groups(vtk, line, name, &numbers);
     drop_numbers(&numbers);
     return status;
 }
@@ -266,8 +369,10 @@ static enum percuss_status read_fixed_data(struct vtk *vtk, const char *line)
     static const struct {
         const char *name;
         size_t components;
-    } KINDS[] = {{"VECTORS", 3},  {"NORMALS", 3},    {"TENSORS", 9},
-                 {"TENSORS6", 6}, {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}};
+    } KINDS[] = {{"VECTORS", 3},          {"NORMALS", 3},
+                 {"TENSORS", 9},          {"TENSORS6", 6},
+                 {"GLOBAL_IDS", 1},       {"PEDIGREE_IDS", 1},
+                 {"RATIONAL_WEIGHTS", 1}, {"HIGHER_ORDER_DEGREES", 3}};
     char kind[VTK_WORD], name[VTK_WORD], type[VTK_WORD];
     size_t components = 0;
     if (sscanf(line, "%63s %63s %63s", kind, name, type) != 3)
@@ -282,26 +387,32 @@ static enum percuss_status read_fixed_data(struct vtk *vtk, const char *line)
     return status;
 }
 
-/* FIELD name n, then n arrays: name components tuples type */
-static enum percuss_status read_field(struct vtk *vtk, const char *line)
+/* LOOKUP_TABLE name n: colours of four parts; COLOR_SCALARS name parts: a colour of each tuple.
+ * Text has them as numbers, binary files as bytes */
+static enum percuss_status skip_colours(struct vtk *vtk, const char *line)
 {
-    size_t count, components, tuples;
-    char array[VTK_LINE], name[VTK_WORD], type[VTK_WORD];
+    struct numbers numbers = {0};
+    size_t count;
+    bool table = toupper((unsigned char)line[0]) == 'L';
     if (sscanf(line, "%*s %*s %zu", &count) != 1)
-        return refuse_vtk_line(vtk, line, "FIELD, a name and a number");
-    for (size_t i = 0; i < count; i++) {
-        do {
-            if (!next_line(vtk, array))
-                return scan_refuse(&vtk->scan, "FIELD: the file ends before: it must be whole");
-        } while (strncasecmp(array, "METADATA", 8) == 0 ||
-                 strncasecmp(array, "INFORMATION", 11) == 0);
-        if (sscanf(array, "%63s %zu %zu %63s", name, &components, &tuples, type) != 4)
-            return refuse_vtk_line(vtk, array, "a name, two numbers and a type");
-        enum percuss_status status = read_data(vtk, array, name, tuples, components, type);
-        if (status != PERCUSS_OK)
-            return status;
-    }
-    return PERCUSS_OK;
+        return refuse_vtk_line(vtk, line, "followed by a name and a number");
+    enum percuss_status status = read_array(vtk, line, table ? count : vtk->data_count,
+                                            table ? 4 : count, "unsigned_char", &numbers);
+    drop_numbers(&numbers);
+    return status;
+}
+
+/* TEXTURE_COORDINATES name components type */
+static enum percuss_status skip_coordinates(struct vtk *vtk, const char *line)
+{
+    struct numbers numbers = {0};
+    size_t components;
+    char type[VTK_WORD];
+    if (sscanf(line, "%*s %*s %zu %63s", &components, type) != 2)
+        return refuse_vtk_line(vtk, line, "followed by a name, a number and a type");
+    enum percuss_status status = read_array(vtk, line, vtk->data_count, components, type, &numbers);
+    drop_numbers(&numbers);
+    return status;
 }
 
 /* up to an empty line */
@@ -311,6 +422,31 @@ static enum percuss_status skip_metadata(struct vtk *vtk, const char *line)
     (void)line;
     while (scan_line(&vtk->scan, rest, sizeof rest) && rest[strspn(rest, " \t")])
         ;
+    return PERCUSS_OK;
+}
+
+/* FIELD name n, then n arrays: name components tuples type, with METADATA behind each */
+static enum percuss_status read_field(struct vtk *vtk, const char *line)
+{
+    size_t count, components, tuples;
+    char array[VTK_LINE], name[VTK_WORD], type[VTK_WORD];
+    if (sscanf(line, "%*s %*s %zu", &count) != 1)
+        return refuse_vtk_line(vtk, line, "FIELD, a name and a number");
+    for (size_t i = 0; i < count;) {
+        if (!next_line(vtk, array))
+            return scan_refuse(&vtk->scan, "FIELD: the file ends before: it must be whole");
+        enum percuss_status status;
+        if (strncasecmp(array, "METADATA", 8) == 0) {
+            status = skip_metadata(vtk, array);
+        } else {
+            if (sscanf(array, "%63s %zu %zu %63s", name, &components, &tuples, type) != 4)
+                return refuse_vtk_line(vtk, array, "a name, two numbers and a type");
+            status = read_data(vtk, array, name, tuples, components, type);
+            i++;
+        }
+        if (status != PERCUSS_OK)
+            return status;
+    }
     return PERCUSS_OK;
 }
 
@@ -331,13 +467,25 @@ typedef enum percuss_status vtk_reader(struct vtk *vtk, const char *line);
 static const struct {
     const char *name;
     vtk_reader *read;
-} SECTIONS[] = {{"DATASET", check_dataset},      {"POINTS", read_points},
-                {"CELLS", read_cells},           {"CELL_TYPES", read_cell_types},
-                {"CELL_DATA", read_data_count},  {"POINT_DATA", read_data_count},
-                {"SCALARS", read_scalars},       {"FIELD", read_field},
-                {"VECTORS", read_fixed_data},    {"NORMALS", read_fixed_data},
-                {"TENSORS", read_fixed_data},    {"TENSORS6", read_fixed_data},
-                {"GLOBAL_IDS", read_fixed_data}, {"PEDIGREE_IDS", read_fixed_data},
+} SECTIONS[] = {{"DATASET", check_dataset},
+                {"POINTS", read_points},
+                {"CELLS", read_cells},
+                {"CELL_TYPES", read_cell_types},
+                {"CELL_DATA", read_data_count},
+                {"POINT_DATA", read_data_count},
+                {"SCALARS", read_scalars},
+                {"FIELD", read_field},
+                {"VECTORS", read_fixed_data},
+                {"NORMALS", read_fixed_data},
+                {"TENSORS", read_fixed_data},
+                {"TENSORS6", read_fixed_data},
+                {"GLOBAL_IDS", read_fixed_data},
+                {"PEDIGREE_IDS", read_fixed_data},
+                {"RATIONAL_WEIGHTS", read_fixed_data},
+                {"HIGHER_ORDER_DEGREES", read_fixed_data},
+                {"LOOKUP_TABLE", skip_colours},
+                {"COLOR_SCALARS", skip_colours},
+                {"TEXTURE_COORDINATES", skip_coordinates},
                 {"METADATA", skip_metadata}};
 
 /* the mesh and its groups; a section that is not known ends them once the mesh is there */
@@ -350,7 +498,11 @@ static enum percuss_status read_vtk_sections(struct vtk *vtk)
         while (i < count && strcasecmp(word, SECTIONS[i].name) != 0)
             i++;
         if (i == count && vtk->points.values && vtk->types.values)
-            return PERCUSS_OK;
+            return builder_remark(&vtk->builder,
+                                  "%.60s: is not read, nor the data behind it, such as groups",
+                                  word)
+                       ? PERCUSS_OK
+                       : vtk_out_of_memory(vtk);
         if (i == count)
             return refuse_vtk_line(vtk, line, "POINTS, CELLS, CELL_TYPES or their data");
         enum percuss_status status = SECTIONS[i].read(vtk, line);
@@ -428,9 +580,7 @@ static enum percuss_status add_flat(struct vtk *vtk, size_t cell, const size_t *
     for (size_t i = 0; i < count && set != SIZE_MAX; i++)
         if (!builder_append(&vtk->builder.sets[set].labels, nodes[i]))
             set = SIZE_MAX;
-    return set != SIZE_MAX
-               ? PERCUSS_OK
-               : fault_set(vtk->scan.fault, PERCUSS_INTERNAL, "%s: out of memory", vtk->scan.file);
+    return set != SIZE_MAX ? PERCUSS_OK : vtk_out_of_memory(vtk);
 }
 
 static enum percuss_status add_solid(struct vtk *vtk, size_t cell, const struct vtk_cell *kind,
@@ -453,7 +603,7 @@ static enum percuss_status add_solid(struct vtk *vtk, size_t cell, const struct 
     return part != SIZE_MAX &&
                    builder_add_element(&vtk->builder, kind->element, cell, part, ordered)
                ? PERCUSS_OK
-               : fault_set(vtk->scan.fault, PERCUSS_INTERNAL, "%s: out of memory", vtk->scan.file);
+               : vtk_out_of_memory(vtk);
 }
 
 /* one cell with its nodes from `first` to `end` */
@@ -496,10 +646,14 @@ static enum percuss_status add_cells(struct vtk *vtk)
     if (vtk->offsets.count != cells + 1)
         return scan_refuse(&vtk->scan, "CELLS and CELL_TYPES must be of one number: %zu and %zu",
                            vtk->offsets.count ? vtk->offsets.count - 1 : 0, cells);
+    if (vtk->groups.values && vtk->groups.count != cells)
+        return scan_refuse(&vtk->scan,
+                           "CELL_DATA: %s: has %zu numbers: must have one of each of "
+                           "the %zu cells",
+                           vtk->group_name, vtk->groups.count, cells);
     for (size_t i = 0; i < points; i++)
         if (!builder_add_node(&vtk->builder, i, vtk->points.values + 3 * i))
-            return fault_set(vtk->scan.fault, PERCUSS_INTERNAL, "%s: out of memory",
-                             vtk->scan.file);
+            return vtk_out_of_memory(vtk);
     for (size_t cell = 0; cell < cells; cell++) {
         double first = vtk->offsets.values[cell], end = vtk->offsets.values[cell + 1];
         if (!(first >= 0.0 && first <= end && end <= (double)vtk->nodes.count))

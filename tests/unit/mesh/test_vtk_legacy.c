@@ -53,6 +53,53 @@ static void number(bool binary, bool real, size_t size, double value)
     put(word, size);
 }
 
+/* a text of 70 letters: in binary files its length has two bytes */
+static void put_text(bool binary)
+{
+    if (binary)
+        put(2u << 14 | 70u, 2);
+    say("%070d%s", 7, binary ? "" : "\n");
+}
+
+/* data as VTK writes them round what names the groups: numbers of the cells themselves, colours,
+ * texts, bits and METADATA */
+static void write_data(const struct solid_mesh *mesh, bool binary)
+{
+    size_t cells = mesh->element_count;
+    say("\nCELL_DATA %zu\nSCALARS quality float 1\nLOOKUP_TABLE mine\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        binary ? put(0, 4) : say("0\n");
+    say("\nLOOKUP_TABLE mine 2\n");
+    for (int i = 0; i < 8; i++)
+        number(binary, false, 1, i % 2);
+    say("\nCOLOR_SCALARS hue 3\n");
+    for (size_t i = 0; i < 3 * (cells + 1); i++)
+        number(binary, false, 1, 1);
+    say("\nFIELD FieldData 6\nvtkGhostType 1 %zu unsigned_char\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        number(binary, false, 1, 0);
+    say("\nMETADATA\nCOMPONENT_NAMES\nX%%20X\n\nGlobalElementId 1 %zu int\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        number(binary, false, 4, (double)e + 1.0);
+    say("\nMETADATA\nINFORMATION 1\nNAME RANGE LOCATION vtkDataArray\nDATA 2 1 2\n\n");
+    say("names 1 %zu string\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        put_text(binary);
+    say("\nis_shown 1 %zu bit\n", cells + 1);
+    for (size_t e = 0; e <= cells; e += binary ? 8 : 1)
+        number(binary, false, 1, 1);
+    say("\nattribute 1 %zu int\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        number(binary, false, 4, 5.0);
+    say("\nMaterialIds 1 %zu int\n", cells + 1);
+    for (size_t e = 0; e <= cells; e++)
+        number(binary, false, 4, e < cells ? (double)(e % 2) : -7.0);
+    say("\nPOINT_DATA %zu\nTEXTURE_COORDINATES map 1 float\n", mesh->node_count);
+    for (size_t i = 0; i < mesh->node_count; i++)
+        binary ? put(0, 4) : say("0\n");
+    say("\nUNKNOWN data\n");
+}
+
 /* the file of a mesh; each cell is of its own group, and the last one a face of the first */
 static void write_vtk(const struct solid_mesh *mesh, bool binary, bool split)
 {
@@ -96,13 +143,7 @@ static void write_vtk(const struct solid_mesh *mesh, bool binary, bool split)
     for (size_t e = 0; e < cells; e++)
         number(binary, false, 4, CODES[mesh->types[0]]);
     number(binary, false, 4, 5.0);
-    say("\nCELL_DATA %zu\nSCALARS quality float 1\nLOOKUP_TABLE default\n", cells + 1);
-    for (size_t e = 0; e <= cells; e++)
-        binary ? put(0, 4) : say("0\n");
-    say("\nFIELD FieldData 1\ngroup 1 %zu int\n", cells + 1);
-    for (size_t e = 0; e <= cells; e++)
-        number(binary, false, 4, e < cells ? (double)(e % 2) : -7.0);
-    say("\nPOINT_DATA %zu\nCOLOR_SCALARS unknown\n", mesh->node_count);
+    write_data(mesh, binary);
 }
 
 static enum percuss_status read_data_as(double unit, bool raise, struct solid_mesh *mesh)
@@ -133,10 +174,12 @@ static void reads_every_version_and_cell(void **state)
         assert_int_equal(mesh.node_count, made.node_count);
         /* parts by the group of the cell, the face's nodes by its own */
         assert_int_equal(mesh.part_count, 2);
-        assert_string_equal(mesh.part[0].name, "group 0");
+        assert_string_equal(mesh.part[0].name, "MaterialIds 0");
         assert_int_equal(mesh.set_count, 1);
-        assert_string_equal(mesh.set[0].name, "group -7");
+        assert_string_equal(mesh.set[0].name, "MaterialIds -7");
         assert_int_equal(mesh.set[0].count, 3);
+        assert_string_equal(mesh.remarks[0],
+                            "UNKNOWN: is not read, nor the data behind it, such as groups");
         solid_mesh_free(&mesh);
         solid_mesh_free(&made);
     }
@@ -145,6 +188,12 @@ static void reads_every_version_and_cell(void **state)
 static const char LINEAR[] = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
                              "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"
                              "CELL_TYPES 1\n10\n";
+
+/* four of them */
+static const char FOUR[] = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                           "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 4 20\n"
+                           "4 0 1 2 3 4 0 1 2 3 4 0 1 2 3 4 0 1 2 3\n"
+                           "CELL_TYPES 4\n10 10 10 10\n";
 
 static void raises_and_refuses(void **state)
 {
@@ -173,6 +222,25 @@ static void raises_and_refuses(void **state)
                  ".vtk:5: POINTS: 120000 numbers: the file ends before: it must be whole");
     file_refused(".vtk", file_with(LINEAR, "0 1 0 0", "0 1 x 0"), ".vtk:6: POINTS: x: must be");
     file_refused(".vtk", file_with(LINEAR, "ASCII", "TEXT"), "third line must be ASCII or BINARY");
+    /* the first whole numbers name parts, but for those that number the cells; in wrong numbers
+     * they are refused */
+    static const char *const GROUPS[][2] = {
+        {"a 1 4 int\n3 3 3 3\nb 1 4 int\n1 1 2 2\n", "a 3"},
+        {"id 1 4 int\n3 4 5 6\nb 1 4 int\n1 1 2 2\n", "b 1"},
+        {"id 1 4 int\n3 4 5 6\nn 1 4 double\n1 1 2 2\n", "body"}};
+    char four[1024];
+    for (size_t i = 0; i < COUNT(GROUPS); i++) {
+        filled = 0;
+        snprintf(four, sizeof four, "%sCELL_DATA 4\nFIELD f 2\n%s", FOUR, GROUPS[i][0]);
+        file_refused(".vtk", file_with(four, "CELL_DATA 4", "CELL_DATA 3"),
+                     ": CELL_DATA 3: must be of all 4 cells");
+        file_refused(".vtk", file_with(four, " 1 4 int\n3", " 1 3 int\n"),
+                     ": must be of all 4 cells");
+        say("%s", four);
+        assert_int_equal(read_data_as(1.0, true, &mesh), PERCUSS_OK);
+        assert_string_equal(mesh.part[0].name, GROUPS[i][1]);
+        solid_mesh_free(&mesh);
+    }
     for (int binary = 0; binary < 2; binary++) {
         struct block block = {.type = ELEMENT_HEX20, .cells = {1, 1, 1}, .map = bend};
         struct solid_mesh made = block_make(&block);
