@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,11 +30,12 @@ struct unv {
     struct scan scan;
     struct builder builder;
     size_t place_count, place_room;
-    struct unv_place *places; /* sorted once the first group is read */
-    bool sorted;
+    struct unv_place *places;       /* sorted before the groups are read */
     struct builder_list flat_nodes; /* of faces and lines */
     struct builder_list grouped;    /* solids that are in a group */
     size_t flat;                    /* number of faces and lines */
+    bool group_pass;                /* groups are read, and others passed over */
+    double unit;                    /* m, of the caller */
 };
 
 static enum percuss_status unv_out_of_memory(const struct unv *unv)
@@ -245,7 +247,6 @@ static enum percuss_status add_unv_element(struct unv *unv, const long head[6], 
     if (!GROW(unv->places, unv->place_count, unv->place_room))
         return unv_out_of_memory(unv);
     unv->places[unv->place_count++] = place;
-    unv->sorted = false;
     return PERCUSS_OK;
 }
 
@@ -289,9 +290,6 @@ static const struct unv_place *find_place(struct unv *unv, size_t label)
     struct unv_place key = {.label = label};
     if (unv->place_count == 0)
         return NULL;
-    if (!unv->sorted)
-        qsort(unv->places, unv->place_count, sizeof key, compare_places);
-    unv->sorted = true;
     return bsearch(&key, unv->places, unv->place_count, sizeof key, compare_places);
 }
 
@@ -391,6 +389,37 @@ static enum percuss_status read_unv_groups(struct unv *unv, int dataset)
     return status;
 }
 
+/* ---- units ---- */
+
+/* Dataset 164: name of the units, then factors, the first one units of length in a metre. Programs
+ * write metres whatever the model's unit is, so that the caller's is taken, and a remark made. */
+static enum percuss_status read_unv_units(struct unv *unv, int dataset)
+{
+    enum percuss_status status;
+    char line[UNV_LINE], name[31] = "";
+    (void)dataset;
+    for (int row = 0; dataset_line(unv, line, &status); row++) {
+        if (row == 0 && strlen(line) > 10) {
+            snprintf(name, sizeof name, "%.*s", (int)sizeof name - 1, line + 10);
+            trim_name(name);
+            char *behind = strstr(name, "  "); /* kind of temperatures */
+            if (behind)
+                *behind = '\0';
+        }
+        for (char *c = line; *c; c++)
+            if (*c == 'D' || *c == 'd')
+                *c = 'E';
+        double unit = row == 1 ? 1.0 / strtod(line, NULL) : 0.0;
+        if (unit > 0.0 && isfinite(unit) && fabs(unit - unv->unit) > 1e-6 * unit &&
+            !builder_remark(&unv->builder,
+                            "the file states a unit of %g m (%s, dataset 164); it is read in %g m, "
+                            "that of --unit",
+                            unit, name, unv->unit))
+            return unv_out_of_memory(unv);
+    }
+    return status;
+}
+
 /* ---- datasets ---- */
 
 typedef enum percuss_status unv_reader(struct unv *unv, int dataset);
@@ -402,7 +431,7 @@ static const struct {
                 {780, read_unv_elements}, {2412, read_unv_elements}, {2417, read_unv_groups},
                 {2429, read_unv_groups},  {2430, read_unv_groups},   {2432, read_unv_groups},
                 {2435, read_unv_groups},  {2452, read_unv_groups},   {2467, read_unv_groups},
-                {2477, read_unv_groups}};
+                {2477, read_unv_groups},  {164, read_unv_units}};
 
 static enum percuss_status skip_dataset(struct unv *unv)
 {
@@ -419,7 +448,8 @@ static enum percuss_status read_dataset(struct unv *unv, int number)
         return scan_refuse(&unv->scan, "dataset 71: elements of that age are not read: must be "
                                        "780 or 2412");
     for (size_t i = 0; i < sizeof DATASETS / sizeof *DATASETS; i++)
-        if (number == DATASETS[i].number)
+        if (number == DATASETS[i].number &&
+            (DATASETS[i].read == read_unv_groups) == unv->group_pass)
             return DATASETS[i].read(unv, number);
     return skip_dataset(unv);
 }
@@ -442,6 +472,20 @@ static enum percuss_status read_datasets(struct unv *unv)
     return status;
 }
 
+/* groups last, as they may stand before what they are of */
+static enum percuss_status read_both_passes(struct unv *unv)
+{
+    struct scan front = unv->scan;
+    enum percuss_status status = read_datasets(unv);
+    if (status != PERCUSS_OK)
+        return status;
+    if (unv->place_count)
+        qsort(unv->places, unv->place_count, sizeof *unv->places, compare_places);
+    unv->scan = front;
+    unv->group_pass = true;
+    return read_datasets(unv);
+}
+
 static enum percuss_status check_unv_solids(const struct unv *unv)
 {
     if (unv->builder.element_count > 0 || unv->flat == 0)
@@ -456,12 +500,12 @@ static enum percuss_status check_unv_solids(const struct unv *unv)
 enum percuss_status unv_read(const char *path, double unit, bool raise, struct solid_mesh *mesh,
                              struct fault *fault)
 {
-    struct unv unv = {0};
+    struct unv unv = {.unit = unit};
     memset(mesh, 0, sizeof *mesh);
     unv.builder.raise = raise;
     enum percuss_status status = scan_open(path, &unv.scan, fault);
     if (status == PERCUSS_OK)
-        status = read_datasets(&unv);
+        status = read_both_passes(&unv);
     if (status == PERCUSS_OK)
         status = check_unv_solids(&unv);
     if (status == PERCUSS_OK)

@@ -109,9 +109,13 @@ static void reads_every_dataset(void **state)
         bulk_of(&made, &expected);
         filled = 0;
         say("    -1\n   164\n         1  SI: Meters (newton)         2\n    -1\n");
+        /* groups may stand before what they are of */
+        if (i % 3 == 1)
+            write_groups(made.element_count, GROUPS[i / 2]);
         write_nodes(&made, NODES[i % 3]);
         write_elements(&made, ELEMENTS[i / 2 % 2]);
-        write_groups(made.element_count, GROUPS[i / 2]);
+        if (i % 3 != 1)
+            write_groups(made.element_count, GROUPS[i / 2]);
         if (file_read(".unv", text, 1.0, &mesh) != PERCUSS_OK)
             fail_msg("%zu: %s", i, file_fault.text);
         bulk_of(&mesh, &bulk);
@@ -149,6 +153,24 @@ static void raises_and_refuses(void **state)
     near_relative(bulk.volume, 1.0 / 6.0, 1e-13);
     assert_string_equal(mesh.part[0].name, "property 3");
     solid_mesh_free(&mesh);
+    /* the file's unit is told where it is not the caller's */
+    for (int i = 0; i < 2; i++) {
+        filled = 0;
+        say("    -1\n   164\n         5SI: mm (milli-newton)         2\n  1.0D+03  1.0D+00  "
+            "1.0D+00\n"
+            "  2.7D+02\n    -1\n%s",
+            LINEAR);
+        file_write(".unv", text, filled);
+        options.unit = i == 0 ? 1.0 : 0.001;
+        assert_int_equal(mesh_read(file_path, &options, &mesh, &file_fault), PERCUSS_OK);
+        unlink(file_path);
+        assert_int_equal(mesh.remark_count, i == 0 ? 2 : 1);
+        if (i == 0)
+            assert_string_equal(mesh.remarks[0],
+                                "the file states a unit of 0.001 m (SI: mm (milli-newton), dataset "
+                                "164); it is read in 1 m, that of --unit");
+        solid_mesh_free(&mesh);
+    }
     file_refused(".unv", LINEAR,
                  ".unv:15: element 7: linear tetrahedron (111): must be parabolic (118, 116), as");
     file_refused(".unv", file_with(LINEAR, "7 111 ", "7 112 "),
