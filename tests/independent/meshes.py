@@ -391,6 +391,11 @@ CHAIN = ("CORD2R,7,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\n"
          "CORD2{},8,7,0.,2.,3.,1.,2.,3.\n,0.,3.,3.\n")
 
 
+# a table of a colour, texts and their METADATA in bytes
+BEFORE_GROUPS = (b"LOOKUP_TABLE t 1\n\x01\x0a\x03\x04\nFIELD f 1\nnames 1 2 string\n\xc1a\xc1b\n"
+                 b"METADATA\nCOMPONENT_NAMES\nX%20Y\n\n")
+
+
 def right_files(tet, hexa, full):
     """(name, contents, reference, arguments, set that is held)"""
     given = ["--young", "210GPa", "--poisson", ".3", "--density", "7800"]
@@ -408,14 +413,19 @@ def right_files(tet, hexa, full):
     yield "grdset.bdf", bdf(t, "blank", place=turned, head=CHAIN.format("R") + "GRDSET,,8,,,,8\n"), tet, [], spc
     yield "parts.bdf", bdf(t, "plus", head="INCLUDE 'empty.inc'\n"), tet, [], spc
     yield "linear.bdf", bdf(h, "blank", corners=8), hexa, ["--raise"], None
+    yield "weights.bdf", bdf(t, "plus").replace("TITLE", "  param,wtmass,.5\n        TITLE").replace("7.8-9", "1.56-8"), tet, [], spc
+    yield "head.bdf", "INCLUDE 'head.inc'\n" + bdf(h, "blank").partition("BEGIN BULK\n")[2], hexa, [], spc
     yield "two.vtk", vtk(h, 2.0, False), hexa, given, seven
     yield "three.vtk", vtk(t, 3.0, True), tet, given, seven
     yield "five.vtk", vtk(f, 5.1, False), full, given, None
     yield "bytes.vtk", vtk(h, 5.1, True), hexa, given, seven
+    yield "behind.vtk", vtk(h, 5.1, True).replace(b"SCALARS", BEFORE_GROUPS + b"SCALARS"), hexa, given, seven
     yield "linear.vtk", vtk(t, 5.1, True, corners=4), tet, [*given, "--raise"], seven
     yield "salome.unv", unv(t), tet, given, foot
     yield "older.unv", unv(h, 781, 780, 2435), hexa, given, foot
     yield "oldest.unv", unv(h, 781, 2412, 2432), hexa, given, foot
+    rest, mark, groups = unv(t).rpartition("    -1\n  2467\n")
+    yield "first.unv", mark + groups + rest, tet, given, foot
     yield "linear.unv", unv(h, corners=8), hexa, [*given, "--raise"], foot
     yield "text.msh", msh41(t), tet, given, foot
     yield "bytes.msh", msh41(f, binary=True), full, given, None
@@ -439,6 +449,9 @@ def damaged_files(tet, hexa):
     yield "linear4.bdf", bdf(t, "blank", corners=4), "CTETRA: 1: has 4 nodes: must be of second order"
     yield "middle.bdf", bdf(h, "blank", corners=19), "CHEXA: 1: has 11 of 12 mid nodes"
     yield "shells.bdf", "BEGIN BULK\nGRID,1\nCQUAD4,1,1,1,1,1,1\n", "1 shells (CQUAD4, CTRIA3, ...) and no solid"
+    yield "twice.bdf", good.replace("MAT1", "MAT1,5,7.+4,,.3,2.7-9\nMAT1", 1), ":7: MAT1 5: differs from that of "
+    yield "waves.bdf", good.replace("7.8-9", "7.8-12"), "waves of 164083 m/s: must be at most 20000"
+    yield "cells.vtk", vtk(h, 5.1, True).replace(b"CELL_DATA ", b"CELL_DATA 1"), ": must be of all "
     yield "gone.bdf", "BEGIN BULK\nINCLUDE 'gone.inc'\n", "gone.inc: No such file"
     yield "short.vtk", vtk(h, 5.1, True)[:-700], "the file ends before: it must be whole"
     yield "linear8.vtk", vtk(h, 5.1, False, corners=8), "cell 0: hexahedron of 8 nodes (type 12): must be of second"
@@ -495,6 +508,7 @@ def main():
         folder = keep or Path(temporary)
         folder.mkdir(exist_ok=True)
         write(folder / "empty.inc", "$ nothing\n")
+        write(folder / "head.inc", "SOL 103\nCEND\nSPC = 1\nBEGIN BULK\n")
         for name, contents, reference, arguments, held in right_files(*references):
             write(folder / name, contents)
             count += 1
