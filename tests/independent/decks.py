@@ -227,6 +227,8 @@ def right_cases():
     yield "exponents of Fortran", {"a.inp": PLAIN.replace("7.8E-9", "7.8D-9")}, "", free, None
     yield "names in quotes", {"a.inp": PLAIN.replace("=ALL", '="my, set"')}, "", free, None
     yield "a keyword in two lines", {"a.inp": PLAIN.replace("C3D20, ", "C3D20,\n")}, "", free, None
+    yield "a comma before lines of data", {"a.inp": (PLAIN + hold).replace("ELSET=ALL\n1", "ELSET=ALL,\n1").replace(
+        "FOOT\n", "FOOT,\n")}, "--fixed FOOT", low, None
     yield "the section first", {"a.inp": SECTION + PLAIN.replace(SECTION, "")}, "", free, None
     yield "nodes twice in one place", {"a.inp": MESH + f"*NODE\n{half}" + MATERIAL + SECTION}, "", free, None
     yield "a law that is not the body's", {"a.inp": PLAIN + other}, "", free, None

@@ -5,9 +5,12 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "mesh/inp_keywords.h"
 
 enum { CARD_NUMBER_SIZE = 128 };
 
@@ -19,29 +22,6 @@ static char *card_trim(char *text)
     while (length > 0 && isspace((unsigned char)text[length - 1]))
         text[--length] = '\0';
     return text;
-}
-
-bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status *status)
-{
-    size_t filled = 0;
-    *status = PERCUSS_OK;
-    while (scan_line(scan, line + filled, CARD_LINE_SIZE - filled)) {
-        char *text = card_trim(line + filled);
-        memmove(line + filled, text, strlen(text) + 1);
-        if (line[filled] == '\0' || strncmp(line + filled, "**", 2) == 0) {
-            line[filled] = '\0';
-            continue;
-        }
-        filled += strlen(line + filled);
-        if (filled >= CARD_LINE_SIZE - 2) {
-            *status = scan_refuse(scan, "a line of more than %d letters: must be shorter",
-                                  CARD_LINE_SIZE - 2);
-            return false;
-        }
-        if (line[0] != '*' || line[filled - 1] != ',')
-            return true;
-    }
-    return filled > 0;
 }
 
 /* Removes white space outside quotes, then the quotes. */
@@ -63,6 +43,63 @@ static void card_capitals(char *text)
     card_name(text);
     for (; *text; text++)
         *text = (char)toupper((unsigned char)*text);
+}
+
+/* the next line that is neither empty nor a comment */
+static bool text_line(struct scan *scan, char *line, size_t size)
+{
+    while (scan_line(scan, line, size)) {
+        char *text = card_trim(line);
+        memmove(line, text, strlen(text) + 1);
+        if (*line && strncmp(line, "**", 2) != 0)
+            return true;
+    }
+    return false;
+}
+
+/* The first field of a line in capitals, up to a comma. */
+static void first_word(const char *line, char word[CARD_LINE_SIZE])
+{
+    snprintf(word, CARD_LINE_SIZE, "%.*s", (int)strcspn(line, ","), line);
+    card_capitals(word);
+}
+
+/* Whether a line goes on with the parameters of the keyword line before it, which ends with a
+ * comma: such a comma may stand before lines of data too. */
+static bool goes_on(const char *keyword, const char *line)
+{
+    char name[CARD_LINE_SIZE], word[CARD_LINE_SIZE];
+    if (!isalpha((unsigned char)*line))
+        return false;
+    first_word(keyword + 1, name);
+    first_word(line, word);
+    return strchr(word, '=') || keyword_parameter(name, word) == PARAMETER_FLAG;
+}
+
+bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status *status)
+{
+    size_t filled = 0;
+    struct scan before = *scan;
+    *status = PERCUSS_OK;
+    while (text_line(scan, line + filled, CARD_LINE_SIZE - filled)) {
+        char *next = line + filled;
+        if (filled > 0 && (*next == '*' || !goes_on(line, next))) {
+            *next = '\0';
+            *scan = before;
+            return true;
+        }
+        filled += strlen(next);
+        if (filled >= CARD_LINE_SIZE - 2) {
+            *status = scan_refuse(scan, "a line of more than %d letters: must be shorter",
+                                  CARD_LINE_SIZE - 2);
+            return false;
+        }
+        if (line[0] != '*' || line[filled - 1] != ',')
+            return true;
+        before = *scan;
+    }
+    line[filled] = '\0';
+    return filled > 0;
 }
 
 /* The name of a file keeps its blanks. */
@@ -130,11 +167,13 @@ bool card_label(const struct scan *scan, const char *subject, const char *field,
     char *end;
     errno = 0;
     unsigned long long number = field ? strtoull(field, &end, 10) : 0;
-    if (field && isdigit((unsigned char)*field) && *end == '\0' && !errno && number > 0) {
+    if (field && isdigit((unsigned char)*field) && *end == '\0' && !errno && number > 0 &&
+        number < SIZE_MAX) {
         *value = number;
         return true;
     }
-    scan_refuse(scan, "%s: %.40s: must be a whole number > 0", subject, field ? field : "nothing");
+    scan_refuse(scan, "%s: %.40s: must be a whole number > 0 and < %zu", subject,
+                field ? field : "nothing", SIZE_MAX);
     return false;
 }
 

@@ -19,7 +19,8 @@ struct card {
 };
 
 /* The next line that is neither empty nor a comment; joins a keyword line that ends with a comma
- * and the next one. False: the file ends, or (with a message) the line is too long. */
+ * and the next one where that has parameters, KEY=VALUE or one of the keyword's. False: the file
+ * ends, or (with a message) the line is too long. */
 bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status *status);
 
 /* Splits a keyword line into the card and overwrites it; false: it has too many parameters. */
@@ -36,7 +37,7 @@ char *card_field(char **cursor);
 void card_name(char *text);
 
 /* Numbers in fields; false with a message that begins with `subject`. An empty or missing field is
- * refused. */
+ * refused. Labels are less than SIZE_MAX, which stands for none. */
 bool card_label(const struct scan *scan, const char *subject, const char *field, size_t *value);
 bool card_real(const struct scan *scan, const char *subject, const char *field, double *value);
 

@@ -759,6 +759,23 @@ static enum percuss_status read_keyword(struct inp *inp, const struct card *card
     return read_other_card(inp, card);
 }
 
+/* Refuses a number among the parameters, which is data, and tells of those that are not known. */
+static enum percuss_status check_parameters(struct inp *inp, const struct card *card)
+{
+    for (int i = 0; i < card->parameter_count; i++) {
+        const char *key = card->parameters[i].key;
+        if (keyword_parameter(card->name, key) != PARAMETER_UNKNOWN)
+            continue;
+        if (!isalpha((unsigned char)*key))
+            return scan_refuse(inp->scan, "*%.40s: %.60s: must be a parameter, KEY or KEY=VALUE",
+                               card->name, key);
+        if (!deck_tell(&inp->deck, "*%.40s (line %zu): %.60s: is no parameter known here: left out",
+                       card->name, inp->scan->line, key))
+            return inp_out_of_memory(inp);
+    }
+    return PERCUSS_OK;
+}
+
 static enum percuss_status read_card(struct inp *inp, char *line)
 {
     struct card card;
@@ -767,15 +784,18 @@ static enum percuss_status read_card(struct inp *inp, char *line)
     if (!whole)
         return scan_refuse(inp->scan, "*%.40s: must have at most %d parameters", card.name,
                            CARD_MOST_PARAMETERS);
+    enum percuss_status status = inp->step ? PERCUSS_OK : check_parameters(inp, &card);
+    if (status)
+        return status;
     /* lines of data may continue in and after an included file */
     bool include = !inp->step && strcmp(card.name, "INCLUDE") == 0;
     if (!include) {
-        enum percuss_status status = end_element(inp);
+        status = end_element(inp);
         if (status)
             return status;
         inp->read = NULL;
     }
-    enum percuss_status status = read_keyword(inp, &card);
+    status = read_keyword(inp, &card);
     /* any keyword may have its lines of data in a file */
     return status || include || !inp->read || !card_value(&card, "INPUT")
                ? status

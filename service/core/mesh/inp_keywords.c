@@ -121,6 +121,50 @@ static const struct {
     {"VIEWFACTOR", KEYWORD_HARMLESS, NULL},
 };
 
+/* keywords whose parameters make nodes, elements, sets and materials; those with = have values */
+static const struct {
+    const char *name, *keys;
+} PARAMETERS[] = {
+    {"ASSEMBLY", "NAME="},
+    {"DENSITY", "DEPENDENCIES= INPUT= POREFLUID"},
+    {"ELASTIC", "COMPRESSIONFACTOR= DEPENDENCIES= INPUT= MODULI= TYPE="},
+    {"ELEMENT", "ELSET= FILE= INPUT= OFFSET= SOLIDELEMENTNUMBERING= TYPE="},
+    {"ELSET", "ELSET= GENERATE INPUT= INSTANCE= INTERNAL UNSORTED"},
+    {"INCLUDE", "INPUT= PASSWORD="},
+    {"INSTANCE", "INSTANCE= LIBRARY= NAME= PART="},
+    {"MATERIAL", "NAME= RTOL= SRATEFACTOR= SRATETYPE= STRAINRATEREGULARIZATION= UNSYMM"},
+    {"NODE", "INPUT= NSET= SYSTEM="},
+    {"NSET", "ELSET= GENERATE INPUT= INSTANCE= INTERNAL NSET= UNSORTED"},
+    {"PART", "INTERNAL NAME="},
+    {"PLASTIC", "DATATYPE= DEPENDENCIES= EXTRAPOLATION= HARDENING= INPUT= NUMBERBACKSTRESSES= "
+                "PROPERTIES= RATE= SCALESTRESS="},
+    {"SOLIDSECTION", "COMPOSITE CONTROLS= ELSET= INPUT= LAYUP= MATERIAL= NODALTHICKNESS ORDER= "
+                     "ORIENTATION= REFNODE= STACKDIRECTION= SYMMETRIC THICKNESS="},
+    {"SURFACE", "COMBINE= CROP CUTTINGSURFACE DEFINITION= FILLRADIUS= INPUT= INTERNAL MAXRATIO= "
+                "NAME= NOOFFSET NOTHICK PROPERTY= REGIONTYPE= SCALETHICK= TRIM= TYPE= USER"},
+};
+
+/* the word `key` in a list of words, with or without = behind it */
+static enum keyword_parameter_kind find_key(const char *keys, const char *key)
+{
+    size_t length = strlen(key);
+    for (const char *word = keys; *word;) {
+        size_t size = strcspn(word, " "), letters = strcspn(word, " =");
+        if (letters == length && strncmp(word, key, length) == 0)
+            return letters < size ? PARAMETER_VALUE : PARAMETER_FLAG;
+        word += size + (word[size] == ' ');
+    }
+    return PARAMETER_UNKNOWN;
+}
+
+enum keyword_parameter_kind keyword_parameter(const char *name, const char *key)
+{
+    for (size_t i = 0; i < sizeof PARAMETERS / sizeof *PARAMETERS; i++)
+        if (strcmp(PARAMETERS[i].name, name) == 0)
+            return find_key(PARAMETERS[i].keys, key);
+    return PARAMETER_FREE;
+}
+
 enum keyword_kind keyword_find(const char *name, const char **meaning)
 {
     for (size_t i = 0; i < sizeof KEYWORDS / sizeof *KEYWORDS; i++)

@@ -19,6 +19,16 @@ enum keyword_kind {
 /* *meaning: of what is told or refused. */
 enum keyword_kind keyword_find(const char *name, const char **meaning);
 
+enum keyword_parameter_kind {
+    PARAMETER_FREE,    /* parameters of the keyword do not matter here */
+    PARAMETER_UNKNOWN, /* the keyword has none of that name */
+    PARAMETER_VALUE,   /* KEY=VALUE */
+    PARAMETER_FLAG     /* KEY alone, or with a value */
+};
+
+/* The parameter `key` of a keyword, as the manuals of Abaqus and CalculiX list them. */
+enum keyword_parameter_kind keyword_parameter(const char *name, const char *key);
+
 /* Whether a keyword after *STEP is to be told. */
 bool keyword_find_in_step(const char *name, const char **meaning);
 

@@ -220,6 +220,12 @@ static void reads_what_solvers_read(void **state)
         {"99, 5,5,5\n", "99, 5,5,5\n*NODE\n1, 0, 0, 0\n"},
         {"*NSET, NSET=HELD\nLOW, 17,\n", "*NSET, NSET=HELD\nlater\n*NSET, NSET=later\n17, low\n"},
         {"*ELASTIC\n", "*EXPANSION\n1e-5\n*ELASTIC\n"},
+        /* a comma at the end of a keyword line: before data, before a comment, and before more */
+        {"elset=Block\n", "elset=Block,\n"},
+        {"NSET=HELD\nLOW", "NSET=HELD,\n** of the next\nLOW"},
+        {"NSET=low, GENERATE", "NSET=low,\n\n** of it\ngenerate,"},
+        {"ELSET=BLOCK, MATERIAL=STEEL\n", "ELSET=BLOCK,\nMATERIAL=STEEL,\n,\n"},
+        {"*ELASTIC\n210000., .3\n*DENSITY\n", "*ELASTIC,\n210000., .3\n*DENSITY,\n"},
         {"*STEP", "*MATERIAL, NAME=other\n*HYPERELASTIC, OGDEN\n1, 2, 3\n*DENSITY\n1e9\n*STEP"},
         {"*STEP", "*MATERIAL, NAME=other\n*ELASTIC, TYPE=ORTHO\n1, 2, 3\n*PLASTIC\nx\n*STEP"}};
     for (size_t i = 0; i < COUNT(CHANGES); i++) {
@@ -329,6 +335,8 @@ static void tells_what_is_left_out(void **state)
         {"*RIGID BODY, NSET=low\n", "*RIGIDBODY (line 45): left out: the body is elastic"},
         {"*INITIAL CONDITIONS, TYPE=STRESS\n4, 1\n", "the body has no prestress"},
         {"*STEP\n*STATIC\n", "*STATIC (line 46): the body here is unloaded"},
+        {"*NSET, NSET=g, GENERAT\n1, 4, 1\n",
+         "*NSET (line 45): GENERAT: is no parameter known here: left out"},
         {"*WHATEVER\n1, 2\n", "*WHATEVER (line 45): is not known here: left out"}};
     struct solid_mesh mesh;
     for (size_t i = 0; i < COUNT(CASES); i++) {
@@ -470,6 +478,11 @@ static void refuses_with_the_line(void **state)
     file_refused(".inp", file_with(BRICK, "*ELASTIC", "*HYPERELASTIC"),
                  ".inp:37: *HYPERELASTIC: is not read: must be *ELASTIC");
     file_refused(".inp", file_with(BRICK, "1, 4, 1", "1, 4, -1"), "must lead down");
+    file_refused(".inp", file_with(BRICK, "NSET=HELD\n", "NSET=HELD, 17\n"),
+                 "*NSET: 17: must be a parameter, KEY or KEY=VALUE");
+    /* the label that stands for none */
+    file_refused(".inp", file_with(BRICK, "16,17,18,19,20", "16,17,18,19,18446744073709551615"),
+                 "18446744073709551615: must be a whole number > 0 and < 18446744073709551615");
     file_refused(".inp", file_with(TETRAHEDRON, "2, 1,2,3,4", "1, 1,2,3,4"),
                  "element 1: is there twice");
     file_refused(".inp", "\xFF\xFE*\n", ".inp:1: must begin with a keyword, such as *NODE");
