@@ -275,6 +275,8 @@ def damaged_cases():
     yield "no such file", "*INCLUDE, INPUT=none.inp\n" + PLAIN, "", "a.inp:1: *INCLUDE: INPUT=none.inp: No such file"
     yield "no density", PLAIN.replace("*DENSITY\n7.8E-9\n", ""), "", "NAME=STEEL has no *DENSITY"
     yield "no such material", PLAIN.replace("NAME=STEEL", "NAME=IRON"), "", "there is no *MATERIAL, NAME=STEEL"
+    yield "two materials of one name", PLAIN + MATERIAL.replace("7.8E", "2.7E"), "", "with other values: must be there once"
+    yield "two sections of one set", PLAIN + SECTION.replace("STEEL", "AL"), "", "in the solid sections of ALL and ALL"
     yield "no such set", PLAIN.replace("ELSET=ALL, M", "ELSET=NONE, M"), "", "NONE: must be the name of a set of elements"
     yield "linear elements", PLAIN.replace("C3D20", "C3D8"), "", "must be of second order"
     yield "two places of a node", MESH + "*NODE\n1, 0, 0, 5\n" + MATERIAL + SECTION, "", "node 1: is there twice, at"

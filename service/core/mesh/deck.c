@@ -117,11 +117,10 @@ size_t deck_find_material(const struct deck *deck, const char *name)
     return DECK_NONE;
 }
 
-size_t deck_material(struct deck *deck, const char *name, struct deck_place place)
+size_t deck_add_material(struct deck *deck, const char *name, struct deck_place place)
 {
-    size_t found = deck_find_material(deck, name);
-    if (found != DECK_NONE || !GROW(deck->materials, deck->material_count, deck->material_room))
-        return found;
+    if (!GROW(deck->materials, deck->material_count, deck->material_room))
+        return DECK_NONE;
     struct deck_material *material = &deck->materials[deck->material_count];
     *material = (struct deck_material){.place = place};
     snprintf(material->name, sizeof material->name, "%s", name);
@@ -136,23 +135,42 @@ bool deck_add_section(struct deck *deck, const struct deck_section *section)
     return true;
 }
 
-bool deck_tell(struct deck *deck, const char *format, ...)
+/* Appends a remark to a list that has not got it yet. */
+static bool add_remark(char (**list)[MESH_REMARK_SIZE], size_t *count, size_t *room,
+                       const char *format, va_list args)
 {
     char text[MESH_REMARK_SIZE];
-    va_list args;
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7F)
             *c = '?';
-    for (size_t i = 0; i < deck->remark_count; i++)
-        if (strcmp(deck->remarks[i], text) == 0)
+    for (size_t i = 0; i < *count; i++)
+        if (strcmp((*list)[i], text) == 0)
             return true;
-    if (!GROW(deck->remarks, deck->remark_count, deck->remark_room))
+    if (!GROW(*list, *count, *room))
         return false;
-    memcpy(deck->remarks[deck->remark_count++], text, sizeof text);
+    memcpy((*list)[(*count)++], text, sizeof text);
     return true;
+}
+
+bool deck_tell(struct deck *deck, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    bool told = add_remark(&deck->remarks, &deck->remark_count, &deck->remark_room, format, args);
+    va_end(args);
+    return told;
+}
+
+bool deck_material_tell(struct deck *deck, size_t index, const char *format, ...)
+{
+    struct deck_material *material = &deck->materials[index];
+    va_list args;
+    va_start(args, format);
+    bool told =
+        add_remark(&material->told, &material->told_count, &material->told_room, format, args);
+    va_end(args);
+    return told;
 }
 
 enum percuss_status deck_refuse(const struct deck *deck, struct deck_place place,
@@ -180,6 +198,8 @@ void deck_free(struct deck *deck)
     for (size_t i = 0; i < deck->set_count; i++)
         free(deck->sets[i].items);
     free(deck->sets);
+    for (size_t i = 0; i < deck->material_count; i++)
+        free(deck->materials[i].told);
     free(deck->materials);
     free(deck->sections);
     free(deck->remarks);

@@ -75,17 +75,21 @@ struct deck_set {
     struct deck_item *items;
 };
 
-/* In units of N, s and the file's length. */
+enum deck_property { DECK_ELASTIC, DECK_DENSITY, DECK_PLASTIC, DECK_PROPERTIES };
+
+/* In units of N, s and the file's length. Each *MATERIAL is one, whatever the names of others. */
 struct deck_material {
     char name[MESH_NAME_SIZE];
     struct deck_place place;
+    size_t stated[DECK_PROPERTIES]; /* lines of the properties; 0: it has none */
     bool elastic, dense;
     double young, poisson, density;
     size_t stress_count; /* of *PLASTIC: its first two rows */
     double stress[2], strain[2];
     char refused[DECK_LAW_SIZE]; /* FILE:LINE and why its law cannot be taken, if the body is of it
                                   */
-    char told[DECK_LAW_SIZE];    /* what is left out of it */
+    size_t told_count, told_room;
+    char (*told)[MESH_REMARK_SIZE]; /* what is left out of it */
 };
 
 struct deck_section {
@@ -136,8 +140,12 @@ size_t deck_set(struct deck *deck, enum deck_set_kind kind, size_t scope, const 
 /* A range that goes on where the last item ended lengthens it. */
 bool deck_add_item(struct deck *deck, size_t set, const struct deck_item *item);
 
+/* The first material of a name; DECK_NONE: there is none. */
 size_t deck_find_material(const struct deck *deck, const char *name);
-size_t deck_material(struct deck *deck, const char *name, struct deck_place place);
+size_t deck_add_material(struct deck *deck, const char *name, struct deck_place place);
+/* What is left out of a material, to be told if the body is of it; the same twice is told once. */
+bool deck_material_tell(struct deck *deck, size_t material, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 bool deck_add_section(struct deck *deck, const struct deck_section *section);
 
 /* What is left out, and what that means; the same twice is told once. */

@@ -25,8 +25,8 @@ struct body {
     size_t part, instance; /* scopes of its mesh; the same where there is no instance */
     size_t count;
     struct place *places; /* ascending */
-    size_t *built;   /* [deck.element_count]: index in the builder; DECK_NONE: no solid of it */
-    bool *sectioned; /* [deck.element_count] */
+    size_t *built;     /* [deck.element_count]: index in the builder; DECK_NONE: no solid of it */
+    size_t *sectioned; /* [deck.element_count]: index of its deck.sections; DECK_NONE: none */
     struct fault *fault;
 };
 
@@ -138,7 +138,7 @@ static enum percuss_status index_elements(struct body *body)
     const struct deck *deck = body->deck;
     body->places = malloc((deck->element_count + 1) * sizeof *body->places);
     body->built = malloc((deck->element_count + 1) * sizeof *body->built);
-    body->sectioned = calloc(deck->element_count + 1, sizeof *body->sectioned);
+    body->sectioned = malloc((deck->element_count + 1) * sizeof *body->sectioned);
     if (!body->places || !body->built || !body->sectioned)
         return body_out_of_memory(body);
     for (size_t e = 0; e < deck->element_count; e++)
@@ -159,7 +159,7 @@ static enum percuss_status build_element(struct body *body, size_t index)
     const struct deck_element *element = &deck->elements[index];
     size_t made[ELEMENT_MOST_NODES], node;
     enum element_type type;
-    body->built[index] = DECK_NONE;
+    body->built[index] = body->sectioned[index] = DECK_NONE;
     if (!is_inside(body, element->scope) || element->kind == DECK_OTHER)
         return PERCUSS_OK;
     const char *wrong =
@@ -375,15 +375,50 @@ static enum percuss_status take_elements(struct body *body, const struct deck_se
         if (!element || body->built[at] == DECK_NONE)
             continue;
         struct builder_element *built = &body->builder.elements[body->built[at]];
-        if (body->sectioned[at] && built->part != part)
+        const struct deck_section *other =
+            body->sectioned[at] != DECK_NONE ? &deck->sections[body->sectioned[at]] : NULL;
+        if (other && (built->part != part ||
+                      !deck_same(deck->names[other->material], deck->names[section->material])))
             return deck_refuse(deck, section->place, body->fault,
-                               "element %zu: is in the solid sections of %s and %s: must be in one",
+                               "element %zu: is in the solid sections of %s and %s: must be in "
+                               "one; the other, of %s, is in line %zu of %s",
                                element->label, body->builder.parts[built->part].name,
-                               deck->names[section->set]);
-        body->sectioned[at] = true;
+                               deck->names[section->set], deck->names[other->material],
+                               other->place.line, deck->files[other->place.file]);
+        body->sectioned[at] = (size_t)(section - deck->sections);
         built->part = part;
         ++*taken;
     }
+    return PERCUSS_OK;
+}
+
+/* Two statements of one material are the same. */
+static bool same_material(const struct deck_material *a, const struct deck_material *b)
+{
+    bool same = a->elastic == b->elastic && a->dense == b->dense &&
+                a->stress_count == b->stress_count && !a->refused[0] == !b->refused[0];
+    if (a->elastic)
+        same = same && a->young == b->young && a->poisson == b->poisson;
+    if (a->dense)
+        same = same && a->density == b->density;
+    for (size_t i = 0; same && i < a->stress_count; i++)
+        same = a->stress[i] == b->stress[i] && a->strain[i] == b->strain[i];
+    return same;
+}
+
+/* solvers take the first one or the last one, and rarely is either meant */
+static enum percuss_status refuse_others(const struct body *body, size_t found)
+{
+    const struct deck *deck = body->deck;
+    const struct deck_material *material = &deck->materials[found];
+    for (size_t i = found + 1; i < deck->material_count; i++)
+        if (deck_same(deck->materials[i].name, material->name) &&
+            !same_material(&deck->materials[i], material))
+            return deck_refuse(deck, deck->materials[i].place, body->fault,
+                               "*MATERIAL, NAME=%s: is in line %zu of %s with other values: must "
+                               "be there once (names are the same in any case)",
+                               deck->materials[i].name, material->place.line,
+                               deck->files[material->place.file]);
     return PERCUSS_OK;
 }
 
@@ -398,9 +433,11 @@ static enum percuss_status give_material(struct body *body, const struct deck_se
         return PERCUSS_OK;
     }
     const struct deck_material *material = &deck->materials[found];
-    if (material->told[0] && !deck_tell(deck, "%s", material->told))
-        return body_out_of_memory(body);
-    return deck_material_give(deck, material, unit, part, body->fault);
+    for (size_t i = 0; i < material->told_count; i++)
+        if (!deck_tell(deck, "%s", material->told[i]))
+            return body_out_of_memory(body);
+    enum percuss_status status = refuse_others(body, found);
+    return status ? status : deck_material_give(deck, material, unit, part, body->fault);
 }
 
 static enum percuss_status apply_section(struct body *body, const struct deck_section *section,

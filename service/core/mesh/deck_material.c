@@ -8,6 +8,8 @@
 
 #include "mesh/file_material.h"
 
+enum { PLACE_SIZE = 200 };
+
 /* The tangent, the slope of stress over total strain, from the first two rows of *PLASTIC with H =
  * d stress/d plastic strain: E H/(E + H). */
 static void give_plastic(const struct deck_material *from, double stress, struct material *to)
@@ -21,11 +23,26 @@ static void give_plastic(const struct deck_material *from, double stress, struct
     to->tangent = hardening > 0.0 ? to->young * hardening / (to->young + hardening) : 0.0;
 }
 
-enum percuss_status deck_material_give(const struct deck *deck, const struct deck_material *from,
+/* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then */
+static bool tell_pounds(struct deck *deck, const struct file_material *stated, double unit,
+                        const struct material *to)
+{
+    static const double INCH = 0.0254;
+    bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;
+    return !imperial ||
+           deck_tell(deck,
+                     "%s: %s is read in newtons: E %.4g Pa, density %.4g kg/m^3; of a deck in "
+                     "pounds-force give the material yourself",
+                     stated->file, stated->name, to->young, to->density);
+}
+
+enum percuss_status deck_material_give(struct deck *deck, const struct deck_material *from,
                                        double unit, struct mesh_part *part, struct fault *fault)
 {
     struct material *to = &part->material;
-    const struct file_material stated = {.file = deck->files[0],
+    char where[PLACE_SIZE];
+    snprintf(where, sizeof where, "%s:%zu", deck->files[from->place.file], from->place.line);
+    const struct file_material stated = {.file = where,
                                          .name = from->name,
                                          .young_field = "*ELASTIC",
                                          .density_field = "*DENSITY",
@@ -37,6 +54,8 @@ enum percuss_status deck_material_give(const struct deck *deck, const struct dec
     enum percuss_status status = file_material_convert(&stated, unit, to, fault);
     if (status != PERCUSS_OK)
         return status;
+    if (!tell_pounds(deck, &stated, unit, to))
+        return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", deck->files[0]);
     give_plastic(from, 1.0 / (unit * unit), to);
     part->has_material = from->elastic && from->dense;
     if (!part->has_material)
@@ -47,7 +66,7 @@ enum percuss_status deck_material_give(const struct deck *deck, const struct dec
     /* limits of every material, its yield with them */
     struct fault inner;
     if (part->has_material && material_check(to, &inner) != PERCUSS_OK)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s: %.400s", deck->files[0], from->name,
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s: %.400s", where, from->name,
                          inner.text);
     return PERCUSS_OK;
 }

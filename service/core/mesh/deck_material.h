@@ -8,8 +8,9 @@
 #include "mesh/deck.h"
 
 /* Gives a part the material of its section; what the deck does not state stays NAN, and part->lacks
- * names the card. PERCUSS_BAD_REQUEST: values outside those of solids, or another law. */
-enum percuss_status deck_material_give(const struct deck *deck, const struct deck_material *from,
+ * names the card. Tells of decks in inches, which may be in pounds-force. PERCUSS_BAD_REQUEST:
+ * values outside those of solids, or another law. */
+enum percuss_status deck_material_give(struct deck *deck, const struct deck_material *from,
                                        double unit, struct mesh_part *part, struct fault *fault);
 
 #endif

@@ -34,8 +34,8 @@ struct inp {
     size_t scope, outer; /* scopes: that of the statements; that of the assembly */
     size_t set, material, instance;
     bool generate;
-    double temperature; /* of the first row of a table */
-    int row;
+    double temperature;          /* of the first row of a table */
+    int row, taken;              /* rows of the table so far; those taken of it */
     struct deck_element element; /* under way */
     size_t nodes[ELEMENT_MOST_NODES], filled;
 };
@@ -255,20 +255,29 @@ static enum percuss_status inp_read_surface(struct inp *inp, char *line)
 
 /* ---- properties of a material; a value that is none is refused if the body is of it ---- */
 
-/* Whether this row of a table is to be taken: those at its first temperature. */
-static bool is_first_temperature(struct inp *inp, const char *name, char *line)
+/* Whether to take this row of a table: those at its first temperature, `most` of them; tells of the
+ * others. `line`: behind the row's values. */
+static enum percuss_status take_row(struct inp *inp, const char *name, char *line, int most,
+                                    bool *taken)
 {
-    struct deck_material *material = &inp->deck.materials[inp->material];
     char *field = card_field(&line), *end;
+    const char *material = inp->deck.materials[inp->material].name;
     double temperature = field && *field ? strtod(field, &end) : 0.0;
+    bool told = true;
     if (inp->row++ == 0)
         inp->temperature = temperature;
-    if (temperature == inp->temperature)
-        return true;
-    snprintf(material->told, sizeof material->told,
-             "*MATERIAL, NAME=%s: %s is a table over the temperature: its rows at %g are taken",
-             material->name, name, inp->temperature);
-    return false;
+    *taken = temperature == inp->temperature && inp->taken < most;
+    inp->taken += *taken;
+    if (temperature != inp->temperature)
+        told = deck_material_tell(&inp->deck, inp->material,
+                                  "*MATERIAL, NAME=%s: %s is a table over the temperature: its "
+                                  "rows at %g are taken",
+                                  material, name, inp->temperature);
+    else if (!*taken)
+        told = deck_material_tell(&inp->deck, inp->material,
+                                  "*MATERIAL, NAME=%s: %s: of its rows the first %d are taken",
+                                  material, name, most);
+    return told ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
 /* Two numbers of a row, or the first one of them alone; keeps the message of what are none. */
@@ -291,39 +300,46 @@ static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
     double values[2];
-    if (!read_numbers(inp, "*ELASTIC", &line, 2, values) ||
-        !is_first_temperature(inp, "*ELASTIC", line) || inp->row > 1)
-        return PERCUSS_OK;
+    bool taken = false;
+    enum percuss_status status = read_numbers(inp, "*ELASTIC", &line, 2, values)
+                                     ? take_row(inp, "*ELASTIC", line, 1, &taken)
+                                     : PERCUSS_OK;
+    if (!taken)
+        return status;
     material->young = values[0];
     material->poisson = values[1];
     material->elastic = true;
-    return PERCUSS_OK;
+    return status;
 }
 
 static enum percuss_status inp_read_density(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
     double value;
-    if (!read_numbers(inp, "*DENSITY", &line, 1, &value) ||
-        !is_first_temperature(inp, "*DENSITY", line) || inp->row > 1)
-        return PERCUSS_OK;
+    bool taken = false;
+    enum percuss_status status = read_numbers(inp, "*DENSITY", &line, 1, &value)
+                                     ? take_row(inp, "*DENSITY", line, 1, &taken)
+                                     : PERCUSS_OK;
+    if (!taken)
+        return status;
     material->density = value;
     material->dense = true;
-    return PERCUSS_OK;
+    return status;
 }
 
 static enum percuss_status inp_read_plastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
-    size_t i = material->stress_count;
     double values[2];
-    if (!read_numbers(inp, "*PLASTIC", &line, 2, values) ||
-        !is_first_temperature(inp, "*PLASTIC", line) || i == 2)
-        return PERCUSS_OK;
-    material->stress[i] = values[0];
-    material->strain[i] = values[1];
-    material->stress_count++;
-    return PERCUSS_OK;
+    bool taken = false;
+    enum percuss_status status = read_numbers(inp, "*PLASTIC", &line, 2, values)
+                                     ? take_row(inp, "*PLASTIC", line, 2, &taken)
+                                     : PERCUSS_OK;
+    if (!taken)
+        return status;
+    material->stress[material->stress_count] = values[0];
+    material->strain[material->stress_count++] = values[1];
+    return status;
 }
 
 /* where an instance stands: its shift, then two points of an axis and degrees */
@@ -521,27 +537,56 @@ static enum percuss_status keyword_material(struct inp *inp, const struct card *
     const char *name = need(inp, card, "NAME");
     if (!name)
         return PERCUSS_BAD_REQUEST;
-    inp->material = deck_material(&inp->deck, name, inp_place(inp));
+    inp->material = deck_add_material(&inp->deck, name, inp_place(inp));
     return inp->material == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
-/* *ELASTIC, *DENSITY, *PLASTIC belong to the *MATERIAL above */
+/* Tells of what a table of the *MATERIAL above has besides temperatures. */
+static enum percuss_status tell_table(struct inp *inp, const struct card *card)
+{
+    const char *fields = card_value(card, "DEPENDENCIES");
+    if (!fields || strcmp(fields, "0") == 0 ||
+        deck_material_tell(&inp->deck, inp->material,
+                           "*MATERIAL, NAME=%s: *%.20s is a table over %.20s field variables: its "
+                           "first rows are taken",
+                           inp->deck.materials[inp->material].name, card->name, fields))
+        return PERCUSS_OK;
+    return inp_out_of_memory(inp);
+}
+
+/* *ELASTIC, *DENSITY, *PLASTIC belong to the *MATERIAL above, each once; further *PLASTIC at rates
+ * of strain are left out */
 static enum percuss_status keyword_property(struct inp *inp, const struct card *card)
 {
+    static inp_line_reader *const READERS[] = {inp_read_elastic, inp_read_density,
+                                               inp_read_plastic};
     const char *type = card_value(card, "TYPE");
     if (inp->material == DECK_NONE)
         return scan_refuse(inp->scan, "*%.20s: must come after a *MATERIAL", card->name);
     struct deck_material *material = &inp->deck.materials[inp->material];
-    inp->row = 0;
-    if (card->name[0] == 'E' && type && strncasecmp(type, "ISO", 3) != 0)
+    enum deck_property property = card->name[0] == 'E'   ? DECK_ELASTIC
+                                  : card->name[0] == 'D' ? DECK_DENSITY
+                                                         : DECK_PLASTIC;
+    size_t *stated = &material->stated[property];
+    if (*stated && property == DECK_PLASTIC && card_value(card, "RATE"))
+        return deck_material_tell(&inp->deck, inp->material,
+                                  "*MATERIAL, NAME=%s: *PLASTIC at further rates is left out",
+                                  material->name)
+                   ? PERCUSS_OK
+                   : inp_out_of_memory(inp);
+    if (*stated && !material->refused[0])
+        snprintf(material->refused, sizeof material->refused,
+                 "%.90s:%zu: *%.20s: is in line %zu before: must be in a material once",
+                 inp->scan->file, inp->scan->line, card->name, *stated);
+    else if (property == DECK_ELASTIC && type && strncasecmp(type, "ISO", 3) != 0)
         snprintf(material->refused, sizeof material->refused,
                  "%.90s:%zu: *ELASTIC: TYPE=%.40s: must be ISOTROPIC", inp->scan->file,
                  inp->scan->line, type);
-    else
-        inp->read = card->name[0] == 'E'   ? inp_read_elastic
-                    : card->name[0] == 'D' ? inp_read_density
-                                           : inp_read_plastic;
-    return PERCUSS_OK;
+    else if (!*stated)
+        inp->read = READERS[property];
+    *stated = inp->scan->line;
+    inp->row = inp->taken = 0;
+    return tell_table(inp, card);
 }
 
 /* another law of the *MATERIAL above: left out beside *ELASTIC, refused without it */
@@ -554,11 +599,11 @@ static enum percuss_status keyword_law(struct inp *inp, const struct card *card)
         snprintf(material->refused, sizeof material->refused,
                  "%.90s:%zu: *%.30s: is not read: must be *ELASTIC", inp->scan->file,
                  inp->scan->line, card->name);
-    else if (!material->told[0])
-        snprintf(material->told, sizeof material->told,
-                 "*MATERIAL, NAME=%s: *%.30s is left out: the body is elastic (and yields by "
-                 "*PLASTIC)",
-                 material->name, card->name);
+    else if (!deck_material_tell(&inp->deck, inp->material,
+                                 "*MATERIAL, NAME=%s: *%.30s is left out: the body is elastic (and "
+                                 "yields by *PLASTIC)",
+                                 material->name, card->name))
+        return inp_out_of_memory(inp);
     return PERCUSS_OK;
 }
 

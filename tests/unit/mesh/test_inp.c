@@ -369,6 +369,73 @@ static void tells_what_is_left_out(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* every table of the body's material that is cut, each in a line; none of another's */
+static void tells_of_every_table(void **state)
+{
+    (void)state;
+    static const char STEEL[] = "*ELASTIC\n210000., .3\n*DENSITY\n7.8e-9\n*PLASTIC\n500., 0.\n";
+    static const char TABLES[] =
+        "*CREEP\n1, 2\n*ELASTIC, DEPENDENCIES=1\n210000., .3, 20., 1.\n190000., .3, 20., 2.\n"
+        "*DENSITY\n7.8e-9, 20.\n7.7e-9, 30.\n*PLASTIC, RATE=0\n500., 0.\n600., .01\n650., .1\n"
+        "*PLASTIC, RATE=1\n700., 0.\n"
+        "*MATERIAL, NAME=other\n*ELASTIC\n1, 0, 1\n1, 0, 2\n*MATERIAL, NAME=last\n*PLASTIC\n1, 0\n";
+    static const char *const TOLD[] = {"*CREEP is left out",
+                                       "*ELASTIC is a table over 1 field",
+                                       "*ELASTIC: of its rows the first 1 are taken",
+                                       "*DENSITY is a table over the temperature: its rows at 20",
+                                       "*PLASTIC: of its rows the first 2 are taken",
+                                       "*PLASTIC at further rates is left out"};
+    struct solid_mesh mesh;
+    if (file_read(".inp", file_with(BRICK, STEEL, TABLES), 0.001, &mesh))
+        fail_msg("%s", file_fault.text);
+    assert_int_equal(mesh.remark_count, COUNT(TOLD));
+    for (size_t i = 0; i < COUNT(TOLD); i++)
+        if (!strstr(mesh.remarks[i], TOLD[i]))
+            fail_msg("\"%s\" has not \"%s\"", mesh.remarks[i], TOLD[i]);
+    near_relative(mesh.part[0].material.young, 210e9, 1e-14);
+    near_relative(mesh.part[0].material.yield, 500e6, 1e-14);
+    near_relative(mesh.part[0].material.tangent, 210e9 / 22.0, 1e-13);
+    solid_mesh_free(&mesh);
+    /* inches: 30e6 of pounds-force would be 207 GPa */
+    static const char INCHES[] = "*ELASTIC\n30e6, .3\n*DENSITY\n7.3e-4\n*PLASTIC\n5e4, 0.\n";
+    if (file_read(".inp", file_with(BRICK, STEEL, INCHES), 0.0254, &mesh))
+        fail_msg("%s", file_fault.text);
+    assert_non_null(strstr(mesh.remarks[0], ":36: Steel is read in newtons: E 4.65e+10 Pa, density "
+                                            "1754 kg/m^3; of a deck in pounds-force give"));
+    solid_mesh_free(&mesh);
+}
+
+/* what is there twice with other values, whatever of it a solver would take */
+static void refuses_a_second_material(void **state)
+{
+    (void)state;
+    char deck[20000];
+    static const char SECOND[] =
+        "*MATERIAL, NAME=STEEL\n*DENSITY\n7.8e-9\n*ELASTIC\n210000., .3\n"
+        "*PLASTIC\n500., 0.\n600., .01\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=steel\n*STEP";
+    struct solid_mesh mesh;
+    snprintf(deck, sizeof deck, "%s", file_with(BRICK, "*STEP", SECOND));
+    assert_int_equal(file_read(".inp", deck, 0.001, &mesh), PERCUSS_OK);
+    assert_int_equal(mesh.remark_count, 0);
+    solid_mesh_free(&mesh);
+    static const char *const OTHERS[][2] = {
+        {"*DENSITY\n7.8e-9\n*EL", "*DENSITY\n2.7e-9\n*EL"},
+        {"*DENSITY\n7.8e-9\n*EL", "*EL"},
+        {"*ELASTIC\n210000., .3\n*PL", "*ELASTIC\n210000., .2\n*PL"},
+        {"*ELASTIC\n210000., .3\n*PL", "*HYPERELASTIC\n1, 2\n*PL"},
+        {"*PLASTIC\n500., 0.\n600., .01\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=steel",
+         "*PLASTIC\n500., 0.\n"}};
+    for (size_t i = 0; i < COUNT(OTHERS); i++)
+        file_refused(".inp", file_with(deck, OTHERS[i][0], OTHERS[i][1]),
+                     ".inp:45: *MATERIAL, NAME=STEEL: is in line 36 of ");
+    file_refused(".inp", file_with(BRICK, "*PLASTIC", "*DENSITY\n2.7e-9\n*PLASTIC"),
+                 ".inp:41: *DENSITY: is in line 39 before: must be in a material once");
+    file_refused(".inp",
+                 file_with(BRICK, "*STEP", "*SOLID SECTION, ELSET=block, MATERIAL=Al\n*STEP"),
+                 ".inp:45: element 4: is in the solid sections of Block and block: must be in one; "
+                 "the other, of STEEL, is in line 44 of ");
+}
+
 /* nodes in a file of their own, in the middle of a block */
 static void includes_files(void **state)
 {
@@ -463,9 +530,10 @@ static void refuses_with_the_line(void **state)
     file_refused(".inp", file_with(BRICK, "block, S2", "block, S7"), "must be: element or set, S1");
     file_refused(".inp", file_with(BRICK, "*ELASTIC\n", "*ELASTIC, TYPE=ORTHO\n"),
                  "*ELASTIC: TYPE=ORTHO: must be ISOTROPIC");
-    file_refused(".inp", file_with(BRICK, "*DENSITY\n7.8e-9", "*DENSITY\n7800"),
-                 "*DENSITY: 7800 is 7.8e+15 kg/m^3 in units of N, s and the file's length");
-    file_refused(".inp", file_with(BRICK, "210000., .3", "210000., .5"), ": Steel: poisson");
+    file_refused(
+        ".inp", file_with(BRICK, "*DENSITY\n7.8e-9", "*DENSITY\n7800"),
+        ".inp:36: Steel: *DENSITY: 7800 is 7.8e+15 kg/m^3 in units of N, s and the file's length");
+    file_refused(".inp", file_with(BRICK, "210000., .3", "210000., .5"), ".inp:36: Steel: poisson");
     file_refused(".inp", file_with(BRICK, "*STEP", "*NGEN\n1, 9, 1\n*STEP"),
                  "*NGEN: is not read: nodes and elements must be written out");
     file_refused(".inp", file_with(BRICK, "*NODE, NSET=ALL", "*NODE, SYSTEM=C"), "must be R");
@@ -502,6 +570,8 @@ int main(void)
         cmocka_unit_test(reads_collapsed_bricks),
         cmocka_unit_test(reads_wedges),
         cmocka_unit_test(tells_what_is_left_out),
+        cmocka_unit_test(tells_of_every_table),
+        cmocka_unit_test(refuses_a_second_material),
         cmocka_unit_test(includes_files),
         cmocka_unit_test(reads_text_of_windows),
         cmocka_unit_test(refuses_with_the_line),
