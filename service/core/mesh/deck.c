@@ -86,6 +86,10 @@ size_t deck_find_set(const struct deck *deck, enum deck_set_kind kind, size_t sc
 size_t deck_set(struct deck *deck, enum deck_set_kind kind, size_t scope, const char *name)
 {
     size_t found = deck_find_set(deck, kind, scope, name);
+    if (found != DECK_NONE && strcmp(deck->sets[found].name, name) != 0 &&
+        !deck_tell(deck, "the sets %s and %s are one: names are the same in any case",
+                   deck->sets[found].name, name))
+        return DECK_NONE;
     if (found != DECK_NONE || !GROW(deck->sets, deck->set_count, deck->set_room))
         return found;
     struct deck_set *set = &deck->sets[deck->set_count];

@@ -132,7 +132,8 @@ bool deck_add_node(struct deck *deck, size_t scope, size_t label, const double p
 /* `element` with its nodes, whose `first` is set here. */
 bool deck_add_element(struct deck *deck, struct deck_element *element, const size_t *nodes);
 
-/* The set of a name in a scope; DECK_NONE: there is none. deck_set makes it then. */
+/* The set of a name in a scope; DECK_NONE: there is none. deck_set makes it then, and
+ * tells of one in other capitals. */
 size_t deck_find_set(const struct deck *deck, enum deck_set_kind kind, size_t scope,
                      const char *name);
 size_t deck_set(struct deck *deck, enum deck_set_kind kind, size_t scope, const char *name);

@@ -37,7 +37,7 @@ struct inp {
     double temperature;          /* of the first row of a table */
     int row, taken;              /* rows of the table so far; those taken of it */
     struct deck_element element; /* under way */
-    size_t nodes[ELEMENT_MOST_NODES], filled;
+    size_t nodes[ELEMENT_MOST_NODES], filled, wanted; /* wanted: 0 where a line is an element */
 };
 
 /* limit of GENERATE: a file with that many labels would be huge */
@@ -79,6 +79,10 @@ static enum percuss_status inp_read_node(struct inp *inp, char *line)
         if (field && *field && !card_real(inp->scan, "*NODE", field, &point[k]))
             return PERCUSS_BAD_REQUEST;
     }
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(point[k]))
+            return scan_refuse(inp->scan, "node %zu: %g: coordinates must be finite numbers",
+                               item.first, point[k]);
     item.last = item.first;
     if (!deck_add_node(&inp->deck, inp->scope, item.first, point) ||
         (inp->set != DECK_NONE && !deck_add_item(&inp->deck, inp->set, &item)))
@@ -98,10 +102,10 @@ static enum percuss_status finish_element(struct inp *inp)
                : inp_out_of_memory(inp);
 }
 
-/* a solid's nodes may take several lines; another element takes one */
+/* the nodes of a solid, of heat and sound too, may take several lines; another element takes one */
 static enum percuss_status inp_read_element(struct inp *inp, char *line)
 {
-    size_t wanted = deck_element_nodes(inp->element.kind);
+    size_t wanted = inp->wanted;
     size_t most = wanted ? wanted : ELEMENT_MOST_NODES;
     char *field;
     if (inp->filled == 0) {
@@ -355,6 +359,12 @@ static enum percuss_status inp_read_instance(struct inp *inp, char *line)
         if (field && *field && !card_real(inp->scan, "*INSTANCE", field, &values[k]))
             return PERCUSS_BAD_REQUEST;
     }
+    char *further = count == 3 ? card_field(&line) : NULL;
+    if (further && *further)
+        return scan_refuse(inp->scan,
+                           "*INSTANCE: %.40s: its first line must be the shift, three numbers: "
+                           "0, 0, 0 where it is turned alone",
+                           further);
     if (count == 3)
         return PERCUSS_OK;
     if (!card_real(inp->scan, "*INSTANCE", card_field(&line), &degrees))
@@ -467,6 +477,8 @@ static enum percuss_status keyword_element(struct inp *inp, const struct card *c
     enum percuss_status status = inp_check_type(inp, type);
     if (status != PERCUSS_OK)
         return status;
+    inp->wanted = inp->element.kind == DECK_OTHER ? keyword_solid_nodes(type)
+                                                  : deck_element_nodes(inp->element.kind);
     /* in an assembly they name nodes of instances */
     if (inp->scope == inp->outer) {
         if (inp->element.kind == DECK_OTHER)

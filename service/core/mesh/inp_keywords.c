@@ -3,9 +3,12 @@
 
 #include "mesh/inp_keywords.h"
 
-#include <stddef.h>
+#include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include "mesh/solid_mesh.h"
 
 static const char WRITTEN_OUT[] = "nodes and elements must be written out one by one";
 static const char MASSES[] = "masses on nodes are left out: the body here is lighter by them";
@@ -200,6 +203,16 @@ bool keyword_replaces_elastic(const char *name)
         if (strcmp(name, LAWS[i]) == 0)
             return true;
     return false;
+}
+
+size_t keyword_solid_nodes(const char *type)
+{
+    for (const char *at = type; *at; at++)
+        if (at[0] == '3' && (at[1] == 'D' || at[1] == 'd') && isdigit((unsigned char)at[2])) {
+            unsigned long count = strtoul(at + 2, NULL, 10);
+            return count >= 10 && count <= ELEMENT_MOST_NODES ? count : 0;
+        }
+    return 0;
 }
 
 bool keyword_is_surface(const char *type)

@@ -7,6 +7,7 @@
 #define PERCUSS_MESH_INP_KEYWORDS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum keyword_kind {
     KEYWORD_UNKNOWN,
@@ -34,6 +35,10 @@ bool keyword_find_in_step(const char *name, const char **meaning);
 
 /* Whether a law stands in place of *ELASTIC, rather than beside it. */
 bool keyword_replaces_elastic(const char *name);
+
+/* The nodes of an element whose type ends with 3D and a number of at least ten (DC3D20, AC3D10),
+ * which may take several lines; 0: another type. */
+size_t keyword_solid_nodes(const char *type);
 
 /* Whether a type of element is a shell, a plane one or a line, which meshers write for surfaces and
  * edges. */

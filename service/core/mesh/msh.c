@@ -179,7 +179,7 @@ static enum percuss_status read_names(struct msh *msh)
     for (size_t i = 0; i < count && scan_line(scan, line, sizeof line); i++) {
         struct msh_group group = {0};
         /* the length of a name is MESH_NAME_SIZE - 1 */
-        if (sscanf(line, "%d %d \"%63[^\"]", &group.dimension, &group.tag, group.name) != 3)
+        if (sscanf(line, "%d %d \"%95[^\"]", &group.dimension, &group.tag, group.name) != 3)
             return scan_refuse(scan, "physical name: must be: dimension tag \"name\"");
         if (!msh_groups_add(&msh->groups, &group))
             return msh_out_of_memory(msh);

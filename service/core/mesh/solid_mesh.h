@@ -14,7 +14,7 @@
 /* Nodes of an element in the order of Gmsh. */
 enum element_type { ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27, ELEMENT_WEDGE15, ELEMENT_TYPES };
 
-enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64, MESH_REMARK_SIZE = 240 };
+enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 96, MESH_REMARK_SIZE = 240 };
 
 /* Elements of one material: a physical volume, an element set. */
 struct mesh_part {

@@ -202,6 +202,8 @@ static void chooses_an_instance(void **state)
                  "*NSET: INSTANCE=Bar-4: must be the name of an instance");
     file_refused(".inp", file_with(ASSEMBLY, "0, 0, 0, 0, 0, 1, 90", "0, 0, 0, 0, 0, 0, 90"),
                  "its axis must have two different points");
+    file_refused(".inp", file_with(ASSEMBLY, "10, 20, 30\n0, 0, 0,", "\n0, 0, 0,"),
+                 ".inp:37: *INSTANCE: 0: its first line must be the shift, three numbers");
     file_survives(".inp", ASSEMBLY, strlen(ASSEMBLY), 100);
 }
 
@@ -219,6 +221,9 @@ static void reads_what_solvers_read(void **state)
         {"1, 4, 1\n9, 12", "4, 1, -1\n12, 9, -1"},
         {"99, 5,5,5\n", "99, 5,5,5\n*NODE\n1, 0, 0, 0\n"},
         {"*NSET, NSET=HELD\nLOW, 17,\n", "*NSET, NSET=HELD\nlater\n*NSET, NSET=later\n17, low\n"},
+        /* names of 80 letters, as the solvers take them */
+        {"*STEP", "*NSET, NSET=A1234567890123456789012345678901234567890123456789012345678901234567"
+                  "8901234567890\n1\n*STEP"},
         {"*ELASTIC\n", "*EXPANSION\n1e-5\n*ELASTIC\n"},
         /* a comma at the end of a keyword line: before data, before a comment, and before more */
         {"elset=Block\n", "elset=Block,\n"},
@@ -337,6 +342,11 @@ static void tells_what_is_left_out(void **state)
         {"*STEP\n*STATIC\n", "*STATIC (line 46): the body here is unloaded"},
         {"*NSET, NSET=g, GENERAT\n1, 4, 1\n",
          "*NSET (line 45): GENERAT: is no parameter known here: left out"},
+        /* in two lines: 4 is no label here, of which there is one */
+        {"*ELEMENT, TYPE=DC3D20, ELSET=heat\n1, 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,\n"
+         "4,17,18,19,20\n",
+         "*ELEMENT, TYPE=DC3D20: left out: no solids of second order"},
+        {"*NSET, NSET=LOW\n17\n", "the sets low and LOW are one: names are the same in any case"},
         {"*WHATEVER\n1, 2\n", "*WHATEVER (line 45): is not known here: left out"}};
     struct solid_mesh mesh;
     for (size_t i = 0; i < COUNT(CASES); i++) {
@@ -518,7 +528,7 @@ static void refuses_with_the_line(void **state)
     file_refused(".inp", file_with(BRICK, "2, 2,0,0", "2, two,0,0"),
                  ".inp:6: *NODE: two: must be a number");
     file_refused(".inp", file_with(BRICK, "2, 2,0,0", "2, 1e999,0,0"),
-                 "node 2: inf: coordinates must be finite numbers");
+                 ".inp:6: node 2: inf: coordinates must be finite numbers");
     file_refused(".inp", file_with(BRICK, "16,17,18,19,20", "16,17,18,19"),
                  "*ELEMENT: 4: has 19 nodes: must have more");
     file_refused(".inp", file_with(BRICK, "16,17,18,19,20", "16,17,18,19,20,99"),
