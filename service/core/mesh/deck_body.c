@@ -24,7 +24,9 @@ struct body {
     struct builder builder;
     size_t part, instance; /* scopes of its mesh; the same where there is no instance */
     size_t count;
-    struct place *places; /* ascending */
+    struct place *places;      /* ascending */
+    struct builder_list nodes; /* its labels, ascending */
+    size_t missing;    /* elements and faces that the set under way names, and are not there */
     size_t *built;     /* [deck.element_count]: index in the builder; DECK_NONE: no solid of it */
     size_t *sectioned; /* [deck.element_count]: index of its deck.sections; DECK_NONE: none */
     struct fault *fault;
@@ -195,6 +197,12 @@ static void place_point(const struct deck_scope *scope, const double point[3], d
     add_scaled3((1.0 - cos(angle)) * along, axis, placed);
 }
 
+static int compare_labels(const void *left, const void *right)
+{
+    size_t a = *(const size_t *)left, b = *(const size_t *)right;
+    return a < b ? -1 : a > b;
+}
+
 static enum percuss_status build_nodes(struct body *body)
 {
     const struct deck *deck = body->deck;
@@ -204,16 +212,19 @@ static enum percuss_status build_nodes(struct body *body)
         if (!is_inside(body, deck->nodes[i].scope))
             continue;
         place_point(scope, deck->nodes[i].point, point);
-        if (!builder_add_node(&body->builder, deck->nodes[i].label, point))
+        if (!builder_add_node(&body->builder, deck->nodes[i].label, point) ||
+            !builder_append(&body->nodes, deck->nodes[i].label))
             return body_out_of_memory(body);
     }
+    if (body->nodes.count)
+        qsort(body->nodes.values, body->nodes.count, sizeof *body->nodes.values, compare_labels);
     return PERCUSS_OK;
 }
 
 /* ---- sets ---- */
 
-static enum percuss_status resolve_set(const struct body *body, const struct deck_set *set,
-                                       int depth, struct builder_list *labels);
+static enum percuss_status resolve_set(struct body *body, const struct deck_set *set, int depth,
+                                       struct builder_list *labels);
 
 /* The set that an item names, in the scopes where it may stand. DECK_NONE with *other: it is of
  * another instance. */
@@ -233,7 +244,7 @@ static size_t find_named(const struct body *body, enum deck_set_kind kind, size_
 }
 
 /* The labels of a set that an item names; `of`: what names it. */
-static enum percuss_status resolve_named(const struct body *body, enum deck_set_kind kind,
+static enum percuss_status resolve_named(struct body *body, enum deck_set_kind kind,
                                          const struct deck_set *of, const struct deck_item *item,
                                          int depth, struct builder_list *labels)
 {
@@ -253,8 +264,8 @@ static enum percuss_status resolve_named(const struct body *body, enum deck_set_
     return resolve_set(body, &body->deck->sets[found], depth + 1, labels);
 }
 
-/* Nodes of an element, or of a face of it. */
-static bool add_nodes(const struct body *body, size_t label, int face, struct builder_list *labels)
+/* Nodes of an element, or of a face of it; counts it where it is not there. */
+static bool add_nodes(struct body *body, size_t label, int face, struct builder_list *labels)
 {
     const struct deck_element *element = find_element(body, label);
     const size_t *nodes = element ? body->deck->connectivity + element->first : NULL;
@@ -263,6 +274,7 @@ static bool add_nodes(const struct body *body, size_t label, int face, struct bu
     size_t count = !element ? 0
                    : whole  ? element->count
                             : deck_element_face(element->kind, face, &local);
+    body->missing += count == 0;
     for (size_t i = 0; i < count; i++)
         if (!builder_append(labels, nodes[whole ? i : local[i]]))
             return false;
@@ -270,7 +282,7 @@ static bool add_nodes(const struct body *body, size_t label, int face, struct bu
 }
 
 /* nodes of the elements of a named set */
-static enum percuss_status resolve_elements(const struct body *body, const struct deck_set *set,
+static enum percuss_status resolve_elements(struct body *body, const struct deck_set *set,
                                             const struct deck_item *item, int depth,
                                             struct builder_list *labels)
 {
@@ -284,7 +296,7 @@ static enum percuss_status resolve_elements(const struct body *body, const struc
     return status;
 }
 
-static enum percuss_status resolve_item(const struct body *body, const struct deck_set *set,
+static enum percuss_status resolve_item(struct body *body, const struct deck_set *set,
                                         const struct deck_item *item, int depth,
                                         struct builder_list *labels)
 {
@@ -306,8 +318,8 @@ static enum percuss_status resolve_item(const struct body *body, const struct de
 }
 
 /* Appends the labels of nodes, or of elements where it is a set of elements. */
-static enum percuss_status resolve_set(const struct body *body, const struct deck_set *set,
-                                       int depth, struct builder_list *labels)
+static enum percuss_status resolve_set(struct body *body, const struct deck_set *set, int depth,
+                                       struct builder_list *labels)
 {
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; !status && i < set->item_count; i++)
@@ -316,16 +328,34 @@ static enum percuss_status resolve_set(const struct body *body, const struct dec
 }
 
 /* Sets of elements name the nodes of their shells and lines. */
-static enum percuss_status shell_nodes(const struct body *body, const struct builder_list *elements,
+static enum percuss_status shell_nodes(struct body *body, const struct builder_list *elements,
                                        struct builder_list *nodes)
 {
     for (size_t i = 0; i < elements->count; i++) {
         const struct deck_element *element = find_element(body, elements->values[i]);
+        body->missing += !element;
         if (element && element->kind == DECK_OTHER &&
             !add_nodes(body, elements->values[i], 0, nodes))
             return body_out_of_memory(body);
     }
     return PERCUSS_OK;
+}
+
+/* Tells how much of what a set names is not there; solvers pass over that too. */
+static enum percuss_status tell_missing(struct body *body, const struct deck_set *set,
+                                        const struct builder_list *labels)
+{
+    static const char *const KINDS[] = {"nodes", "elements", "surface"};
+    static const char *const MISSING[] = {"nodes or elements", "elements", "faces or nodes"};
+    size_t missing = body->missing;
+    for (size_t i = 0; set->kind != DECK_ELEMENTS && i < labels->count; i++)
+        missing += !bsearch(&labels->values[i], body->nodes.values, body->nodes.count,
+                            sizeof *body->nodes.values, compare_labels);
+    return missing == 0 ||
+                   deck_tell(body->deck, "set %s (%s): %zu of the %s that it names are not there",
+                             set->name, KINDS[set->kind], missing, MISSING[set->kind])
+               ? PERCUSS_OK
+               : body_out_of_memory(body);
 }
 
 static enum percuss_status build_set(struct body *body, const struct deck_set *set)
@@ -334,10 +364,13 @@ static enum percuss_status build_set(struct body *body, const struct deck_set *s
     const struct deck_scope *scope = &body->deck->scopes[set->scope];
     struct builder_list labels = {0}, elements = {0};
     bool shells = set->kind == DECK_ELEMENTS;
+    body->missing = 0;
     enum percuss_status status = resolve_set(body, set, 0, shells ? &elements : &labels);
     if (!status && shells)
         status = shell_nodes(body, &elements, &labels);
     free(elements.values);
+    if (!status)
+        status = tell_missing(body, set, &labels);
     size_t index = !status && labels.count ? builder_add_set(&body->builder, set->name) : SIZE_MAX;
     if (status || (labels.count && index == SIZE_MAX) || !labels.count) {
         bool lost = !status && labels.count;
@@ -362,18 +395,24 @@ static bool is_seen(const struct body *body, size_t scope)
 
 /* ---- sections ---- */
 
-/* Puts the solids of a section into a part of its name; *taken: how many. */
+/* Puts the solids of a section into a part of its name; *taken: how many. *others: elements that
+ * are no solids. */
 static enum percuss_status take_elements(struct body *body, const struct deck_section *section,
                                          const struct builder_list *labels, size_t part,
-                                         size_t *taken)
+                                         size_t *taken, size_t *others)
 {
     struct deck *deck = body->deck;
-    *taken = 0;
+    *taken = *others = 0;
     for (size_t i = 0; i < labels->count; i++) {
         const struct deck_element *element = find_element(body, labels->values[i]);
         size_t at = element ? (size_t)(element - deck->elements) : 0;
-        if (!element || body->built[at] == DECK_NONE)
+        /* the set tells of those that are not there */
+        if (!element)
             continue;
+        if (body->built[at] == DECK_NONE) {
+            ++*others;
+            continue;
+        }
         struct builder_element *built = &body->builder.elements[body->built[at]];
         const struct deck_section *other =
             body->sectioned[at] != DECK_NONE ? &deck->sections[body->sectioned[at]] : NULL;
@@ -448,7 +487,8 @@ static enum percuss_status apply_section(struct body *body, const struct deck_se
     struct deck_item item = {.name = section->set, .instance = DECK_NONE, .place = section->place};
     struct builder_list labels = {0};
     bool other;
-    size_t found = find_named(body, DECK_ELEMENTS, section->scope, &item, &other), taken = 0;
+    size_t found = find_named(body, DECK_ELEMENTS, section->scope, &item, &other);
+    size_t taken = 0, others = 0;
     if (found == DECK_NONE)
         return deck_refuse(deck, section->place, body->fault,
                            "*SOLID SECTION: ELSET=%s: must be the name of a set of elements", name);
@@ -457,8 +497,8 @@ static enum percuss_status apply_section(struct body *body, const struct deck_se
                                      ? body_out_of_memory(body)
                                      : resolve_set(body, &deck->sets[found], 0, &labels);
     if (!status)
-        status = take_elements(body, section, &labels, part, &taken);
-    if (!status && taken < labels.count &&
+        status = take_elements(body, section, &labels, part, &taken, &others);
+    if (!status && others > 0 &&
         !deck_tell(deck, "*SOLID SECTION, ELSET=%s: elements that are no solids are left out",
                    name))
         status = body_out_of_memory(body);
@@ -466,6 +506,18 @@ static enum percuss_status apply_section(struct body *body, const struct deck_se
     /* a part without elements is none of this body */
     return status || !taken ? status
                             : give_material(body, section, unit, &body->builder.parts[part]);
+}
+
+/* A section in the assembly or before it is no part's: a body's own is in its part. */
+static enum percuss_status tell_section(struct body *body, const struct deck_section *section)
+{
+    struct deck *deck = body->deck;
+    return !is_seen(body, section->scope) ||
+                   deck_tell(deck,
+                             "*SOLID SECTION, ELSET=%s (line %zu): left out: must be in the *PART",
+                             deck->names[section->set], section->place.line)
+               ? PERCUSS_OK
+               : body_out_of_memory(body);
 }
 
 /* ---- all of it ---- */
@@ -479,8 +531,9 @@ static enum percuss_status build(struct body *body, double unit)
     if (!status)
         status = build_nodes(body);
     for (size_t i = 0; !status && i < deck->section_count; i++)
-        if (is_inside(body, deck->sections[i].scope))
-            status = apply_section(body, &deck->sections[i], unit);
+        status = is_inside(body, deck->sections[i].scope)
+                     ? apply_section(body, &deck->sections[i], unit)
+                     : tell_section(body, &deck->sections[i]);
     for (size_t i = 0; !status && i < deck->set_count; i++)
         if (is_seen(body, deck->sets[i].scope))
             status = build_set(body, &deck->sets[i]);
@@ -502,6 +555,7 @@ enum percuss_status deck_body_make(struct deck *deck, double unit, const char *i
         status = builder_finish(&body.builder, deck->files[0], unit, mesh, fault);
     builder_free(&body.builder);
     free(body.places);
+    free(body.nodes.values);
     free(body.built);
     free(body.sectioned);
     return status;

@@ -176,6 +176,21 @@ static void reads_an_assembly(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* a section outside the part is no part's */
+static void tells_of_a_section_outside(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    const char *deck = file_with(ASSEMBLY, "*End Assembly",
+                                 "*Solid Section, elset=Bar-1.Set-1, material=X\n*End Assembly");
+    assert_int_equal(file_read(".inp", deck, 0.001, &mesh), PERCUSS_OK);
+    assert_int_equal(mesh.remark_count, 1);
+    assert_string_equal(mesh.remarks[0], "*SOLID SECTION, ELSET=Bar-1.Set-1 (line 57): left out: "
+                                         "must be in the *PART");
+    assert_string_equal(mesh.part[0].material.name, "Steel");
+    solid_mesh_free(&mesh);
+}
+
 /* one body at a time: the others are listed */
 static void chooses_an_instance(void **state)
 {
@@ -347,6 +362,14 @@ static void tells_what_is_left_out(void **state)
          "4,17,18,19,20\n",
          "*ELEMENT, TYPE=DC3D20: left out: no solids of second order"},
         {"*NSET, NSET=LOW\n17\n", "the sets low and LOW are one: names are the same in any case"},
+        {"*NSET, NSET=s\n1, 2, 300\n*NSET, NSET=t\ns, 301\n",
+         "set t (nodes): 2 of the nodes or elements that it names are not there"},
+        {"*ELSET, ELSET=Block, GENERATE\n4, 9\n",
+         "set Block (elements): 5 of the elements that it names are not there"},
+        {"*SURFACE, NAME=s\nblock, S5\n5, S1\nblock, S6\n",
+         "set s (surface): 1 of the faces or nodes that it names are not there"},
+        {"*ELEMENT, TYPE=S4, ELSET=Block\n9, 1,2,3,4\n",
+         "*SOLID SECTION, ELSET=BLOCK: elements that are no solids are left out"},
         {"*WHATEVER\n1, 2\n", "*WHATEVER (line 45): is not known here: left out"}};
     struct solid_mesh mesh;
     for (size_t i = 0; i < COUNT(CASES); i++) {
@@ -575,6 +598,7 @@ int main(void)
         cmocka_unit_test(reads_a_brick),
         cmocka_unit_test(reads_a_tetrahedron),
         cmocka_unit_test(reads_an_assembly),
+        cmocka_unit_test(tells_of_a_section_outside),
         cmocka_unit_test(chooses_an_instance),
         cmocka_unit_test(reads_what_solvers_read),
         cmocka_unit_test(reads_collapsed_bricks),
