@@ -264,6 +264,7 @@ def right_cases():
                                     "*NSET, NSET=F, ELSET=SH\n"}, "--fixed F", low, None
     yield "a surface", {"a.inp": PLAIN + "*SURFACE, NAME=F\n1, S6\n"}, "--fixed F", low, None
     yield "a support", {"a.inp": PLAIN + hold + "*STEP\n*STATIC\n*BOUNDARY\nFOOT, 1, 3\n*END STEP\n"}, "", free, "--fixed FOOT holds it"
+    yield "a support of symmetry", {"a.inp": PLAIN + hold + "*BOUNDARY\nFOOT, XSYMM\n"}, "", free, "in direction 1 alone it cannot be"
     yield "a set with nodes that are not there", {"a.inp": PLAIN + hold + "7000, 7001\n"}, "--fixed FOOT", low, "2 of the nodes"
     yield "a mass", {"a.inp": PLAIN + "*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n*MASS, ELSET=M\n1e-3\n"}, "", free, "is lighter by them"
 

@@ -206,6 +206,7 @@ void deck_free(struct deck *deck)
         free(deck->materials[i].told);
     free(deck->materials);
     free(deck->sections);
+    free(deck->supports);
     free(deck->remarks);
     memset(deck, 0, sizeof *deck);
 }

@@ -97,6 +97,12 @@ struct deck_section {
     struct deck_place place;
 };
 
+/* deck_support.h */
+struct deck_support {
+    char set[MESH_NAME_SIZE];
+    unsigned directions;
+};
+
 /* Zero it before use. Functions that add return false or DECK_NONE when out of memory. */
 struct deck {
     size_t file_count, file_room;
@@ -117,6 +123,8 @@ struct deck {
     struct deck_material *materials;
     size_t section_count, section_room;
     struct deck_section *sections;
+    size_t support_count, support_room;
+    struct deck_support *supports;
     size_t remark_count, remark_room;
     char (*remarks)[MESH_REMARK_SIZE];
 };

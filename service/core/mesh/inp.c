@@ -15,6 +15,7 @@
 
 #include "mesh/card.h"
 #include "mesh/deck_body.h"
+#include "mesh/deck_support.h"
 #include "mesh/inp_keywords.h"
 
 /* ---- lines of data: the keyword before them sets their reader ---- */
@@ -375,22 +376,23 @@ static enum percuss_status inp_read_instance(struct inp *inp, char *line)
     return PERCUSS_OK;
 }
 
-/* what a *BOUNDARY holds: its first field */
+/* The node or set of a *BOUNDARY, and the directions in which it is held. */
 static enum percuss_status inp_read_boundary(struct inp *inp, char *line)
 {
-    char *field = card_field(&line);
-    if (!field || !*field)
+    char *whose = card_field(&line), *first = card_field(&line), *last = card_field(&line);
+    if (!whose || !*whose)
         return PERCUSS_OK;
-    bool told;
-    if (is_number(field))
-        told = deck_tell(&inp->deck, "*BOUNDARY: single nodes are not held here: name them in a "
-                                     "*NSET for --fixed");
-    else {
-        card_name(field);
-        told = deck_tell(&inp->deck, "*BOUNDARY: %.60s is not held here: --fixed %.60s holds it",
-                         field, field);
+    bool single = is_number(whose);
+    card_name(whose);
+    char *dot = strchr(whose, '.');
+    if (dot && is_number(dot + 1)) {
+        *dot = '\0';
+        single = single || is_instance(inp, whose);
+        *dot = '.';
     }
-    return told ? PERCUSS_OK : inp_out_of_memory(inp);
+    return deck_support_add(&inp->deck, single ? "" : whose, deck_support_directions(first, last))
+               ? PERCUSS_OK
+               : inp_out_of_memory(inp);
 }
 
 /* ---- keywords ---- */
@@ -898,6 +900,8 @@ enum percuss_status inp_read(const char *path, double unit, const char *instance
     enum percuss_status status = open_scope(&inp, DECK_MODEL, "");
     if (status == PERCUSS_OK)
         status = read_deck(&inp, path);
+    if (status == PERCUSS_OK && !deck_support_tell(&inp.deck))
+        status = inp_out_of_memory(&inp);
     if (status == PERCUSS_OK)
         status = deck_body_make(&inp.deck, unit, instance, mesh, fault);
     deck_free(&inp.deck);

@@ -191,6 +191,22 @@ static void tells_of_a_section_outside(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* a node of an instance is no name for --fixed, a set of it is */
+static void tells_of_an_instance_s_supports(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    const char *deck = file_with(ASSEMBLY, "*Material",
+                                 "*Boundary\nBar-1.5, ENCASTRE\nBar-1.Set-1, 1, 3\n*Material");
+    assert_int_equal(file_read(".inp", deck, 0.001, &mesh), PERCUSS_OK);
+    assert_int_equal(mesh.remark_count, 2);
+    assert_non_null(
+        strstr(mesh.remarks[0], "*BOUNDARY: single nodes are not held here: name them"));
+    assert_non_null(strstr(mesh.remarks[1], "here: --fixed Bar-1.Set-1 holds it"));
+    assert_int_equal(nodes_called(&mesh, "Bar-1.Set-1"), 4);
+    solid_mesh_free(&mesh);
+}
+
 /* one body at a time: the others are listed */
 static void chooses_an_instance(void **state)
 {
@@ -340,48 +356,57 @@ static void reads_wedges(void **state)
                  ".inp:15: element 2: node 4: is in it more than once");
 }
 
+/* before *STEP, and what is told of it */
+static const char *const LEFT_OUT[][2] = {
+    {"*BOUNDARY\nHELD, 1, 3\n", "*BOUNDARY: HELD is not held here: --fixed HELD holds it"},
+    {"*BOUNDARY\nHELD, 1\nheld, 2, 2, 0.\n*BOUNDARY\nHeld, 3, 6\nlow, 4, 6\nlow, 11, 11\n",
+     "*BOUNDARY: HELD is not held here: --fixed HELD holds it"},
+    {"*BOUNDARY\nHELD, pinned\n", "*BOUNDARY: HELD is not held here: --fixed HELD holds it"},
+    {"*BOUNDARY\nHELD, wedged\n", "*BOUNDARY: HELD is not held here: --fixed HELD holds it"},
+    {"*BOUNDARY\nHELD, 2, 3\n",
+     "*BOUNDARY: HELD is not held here: in direction 2 and 3 alone it cannot be, as --fixed"},
+    {"*BOUNDARY\nHELD, XSYMM\nHELD, ZSYMM\n", "here: in direction 1 and 3 alone it cannot"},
+    {"*STEP\n*FREQUENCY\n5\n*BOUNDARY\n1, 1, 3\n", "*BOUNDARY: single nodes are not held here"},
+    {"*ELEMENT, TYPE=MASS, ELSET=m\n77, 1\n*MASS, ELSET=m\n1e-3\n",
+     "masses on nodes are left out: the body here is lighter"},
+    {"*SHELL SECTION, ELSET=s, MATERIAL=Steel\n1\n", "*SHELLSECTION (line 45): left out"},
+    {"*TIE, NAME=t\na, b\n", "*TIE (line 45): left out: the body here is free of it"},
+    {"*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n", "*EQUATION (line 45): left out"},
+    {"*RIGID BODY, NSET=low\n", "*RIGIDBODY (line 45): left out: the body is elastic"},
+    {"*INITIAL CONDITIONS, TYPE=STRESS\n4, 1\n", "the body has no prestress"},
+    {"*STEP\n*STATIC\n", "*STATIC (line 46): the body here is unloaded"},
+    {"*NSET, NSET=g, GENERAT\n1, 4, 1\n",
+     "*NSET (line 45): GENERAT: is no parameter known here: left out"},
+    /* in two lines: 4 is no label here, of which there is one */
+    {"*ELEMENT, TYPE=DC3D20, ELSET=heat\n1, 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,\n"
+     "4,17,18,19,20\n",
+     "*ELEMENT, TYPE=DC3D20: left out: no solids of second order"},
+    {"*NSET, NSET=LOW\n17\n", "the sets low and LOW are one: names are the same in any case"},
+    {"*NSET, NSET=s\n1, 2, 300\n*NSET, NSET=t\ns, 301\n",
+     "set t (nodes): 2 of the nodes or elements that it names are not there"},
+    {"*ELSET, ELSET=Block, GENERATE\n4, 9\n",
+     "set Block (elements): 5 of the elements that it names are not there"},
+    {"*SURFACE, NAME=s\nblock, S5\n5, S1\nblock, S6\n",
+     "set s (surface): 1 of the faces or nodes that it names are not there"},
+    {"*ELEMENT, TYPE=S4, ELSET=Block\n9, 1,2,3,4\n",
+     "*SOLID SECTION, ELSET=BLOCK: elements that are no solids are left out"},
+    {"*WHATEVER\n1, 2\n", "*WHATEVER (line 45): is not known here: left out"}};
+
 /* what is left out is told in a line each */
 static void tells_what_is_left_out(void **state)
 {
     (void)state;
-    static const char *const CASES[][2] = {
-        {"*BOUNDARY\nHELD, 1, 3\n", "*BOUNDARY: HELD is not held here: --fixed HELD holds it"},
-        {"*STEP\n*FREQUENCY\n5\n*BOUNDARY\n1, 1, 3\n", "*BOUNDARY: single nodes are not held here"},
-        {"*ELEMENT, TYPE=MASS, ELSET=m\n77, 1\n*MASS, ELSET=m\n1e-3\n",
-         "masses on nodes are left out: the body here is lighter"},
-        {"*SHELL SECTION, ELSET=s, MATERIAL=Steel\n1\n", "*SHELLSECTION (line 45): left out"},
-        {"*TIE, NAME=t\na, b\n", "*TIE (line 45): left out: the body here is free of it"},
-        {"*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n", "*EQUATION (line 45): left out"},
-        {"*RIGID BODY, NSET=low\n", "*RIGIDBODY (line 45): left out: the body is elastic"},
-        {"*INITIAL CONDITIONS, TYPE=STRESS\n4, 1\n", "the body has no prestress"},
-        {"*STEP\n*STATIC\n", "*STATIC (line 46): the body here is unloaded"},
-        {"*NSET, NSET=g, GENERAT\n1, 4, 1\n",
-         "*NSET (line 45): GENERAT: is no parameter known here: left out"},
-        /* in two lines: 4 is no label here, of which there is one */
-        {"*ELEMENT, TYPE=DC3D20, ELSET=heat\n1, 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,\n"
-         "4,17,18,19,20\n",
-         "*ELEMENT, TYPE=DC3D20: left out: no solids of second order"},
-        {"*NSET, NSET=LOW\n17\n", "the sets low and LOW are one: names are the same in any case"},
-        {"*NSET, NSET=s\n1, 2, 300\n*NSET, NSET=t\ns, 301\n",
-         "set t (nodes): 2 of the nodes or elements that it names are not there"},
-        {"*ELSET, ELSET=Block, GENERATE\n4, 9\n",
-         "set Block (elements): 5 of the elements that it names are not there"},
-        {"*SURFACE, NAME=s\nblock, S5\n5, S1\nblock, S6\n",
-         "set s (surface): 1 of the faces or nodes that it names are not there"},
-        {"*ELEMENT, TYPE=S4, ELSET=Block\n9, 1,2,3,4\n",
-         "*SOLID SECTION, ELSET=BLOCK: elements that are no solids are left out"},
-        {"*WHATEVER\n1, 2\n", "*WHATEVER (line 45): is not known here: left out"}};
     struct solid_mesh mesh;
-    for (size_t i = 0; i < COUNT(CASES); i++) {
+    for (size_t i = 0; i < COUNT(LEFT_OUT); i++) {
         char whole[400];
-        snprintf(whole, sizeof whole, "%s*STEP", CASES[i][0]);
+        snprintf(whole, sizeof whole, "%s*STEP", LEFT_OUT[i][0]);
         assert_int_equal(file_read(".inp", file_with(BRICK, "*STEP", whole), 0.001, &mesh),
                          PERCUSS_OK);
         bool told = false;
         for (size_t k = 0; k < mesh.remark_count; k++)
-            told = told || strstr(mesh.remarks[k], CASES[i][1]);
+            told = told || strstr(mesh.remarks[k], LEFT_OUT[i][1]);
         if (!told)
-            fail_msg("not told: %s (but %s)", CASES[i][1],
+            fail_msg("not told: %s (but %s)", LEFT_OUT[i][1],
                      mesh.remark_count ? mesh.remarks[0] : "nothing");
         solid_mesh_free(&mesh);
     }
@@ -599,6 +624,7 @@ int main(void)
         cmocka_unit_test(reads_a_tetrahedron),
         cmocka_unit_test(reads_an_assembly),
         cmocka_unit_test(tells_of_a_section_outside),
+        cmocka_unit_test(tells_of_an_instance_s_supports),
         cmocka_unit_test(chooses_an_instance),
         cmocka_unit_test(reads_what_solvers_read),
         cmocka_unit_test(reads_collapsed_bricks),
