@@ -113,29 +113,36 @@ static void find_folder(const char *path, char *folder, size_t size)
     snprintf(folder, size, "%.*s", slash ? (int)(slash + 1 - path) : 1, slash ? path : ".");
 }
 
+/* Of the file, which may be a link to another volume; where there is none, of its folder. */
+static bool find_volume(const char *path, struct statfs *volume)
+{
+    char folder[4096];
+    find_folder(path, folder, sizeof folder);
+    return statfs(path, volume) == 0 || statfs(folder, volume) == 0;
+}
+
 bool database_remark_volume(const char *path, char *remark, size_t size)
 {
-    /* statfs(2); FUSE is any of sshfs, GlusterFS and the like */
+    /* statfs(2); FUSE is sshfs, GlusterFS and the like, and local ones (ntfs-3g) */
+    static const char nfs[] = ": NFS version 4, without nolock and local_lock";
     static const struct {
         unsigned long type;
-        const char *name;
-    } shared[] = {{0x6969, "NFS"},    {0xff534d42, "CIFS"},   {0xfe534d42, "SMB"},
-                  {0x517b, "SMB"},    {0x65735546, "FUSE"},   {0x01021997, "9P"},
-                  {0xc36400, "Ceph"}, {0x0bd00bd0, "Lustre"}, {0x5346414f, "AFS"}};
-    char folder[4096];
+        const char *name, *advice;
+    } shared[] = {{0x6969, "NFS", nfs},   {0xff534d42, "CIFS", ""},   {0xfe534d42, "SMB", ""},
+                  {0x517b, "SMB", ""},    {0x65735546, "FUSE", ""},   {0x01021997, "9P", ""},
+                  {0xc36400, "Ceph", ""}, {0x0bd00bd0, "Lustre", ""}, {0x5346414f, "AFS", ""}};
     struct statfs volume;
-    find_folder(path, folder, sizeof folder);
-    if (statfs(folder, &volume) != 0)
+    if (!find_volume(path, &volume))
         return false;
     for (size_t i = 0; i < sizeof shared / sizeof *shared; i++) {
         /* some kernels extend the sign of 32 bits */
         if (((unsigned long)volume.f_type & 0xffffffff) != shared[i].type)
             continue;
-        snprintf(remark, size,
-                 "lies on %s, which other machines may write to: the file's lock alone keeps a "
-                 "second daemon out: mount it with locks that all machines see (NFS: version 4, "
-                 "without nolock and local_lock)",
-                 shared[i].name);
+        snprintf(
+            remark, size,
+            "lies on %s, which may be shared with other machines: the file's lock alone keeps a "
+            "second daemon out, so that they all have to see locks%s",
+            shared[i].name, shared[i].advice);
         return true;
     }
     return false;

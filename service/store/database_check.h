@@ -20,8 +20,9 @@ enum percuss_status database_check(const char *path, int version, struct fault *
  * needed". A volume without such figures counts as having room. */
 enum percuss_status database_room_check(const char *path, struct fault *fault);
 
-/* Whether the file lies on a file system that other machines may write to, so that nothing but its
- * locks keeps another daemon out. True: `remark` says "lies on NFS: ...". */
+/* Whether the file, or its folder where there is none, lies on a file system that may be shared
+ * with other machines, so that nothing but its locks keeps another daemon out. True: `remark` says
+ * "lies on NFS: ...". */
 bool database_remark_volume(const char *path, char *remark, size_t size);
 
 /* Whether a missing file or folder of that path can be made; BAD_REQUEST names the command that
