@@ -7,6 +7,7 @@
 # usage: percuss-keys.sh create DIR             the authority, in DIR/authority, to be kept off the network
 #        percuss-keys.sh add DIR NAME ROLE      the identity DIR/NAME, to be taken where it is used
 #        percuss-keys.sh revoke DIR NAME        no longer: DIR/authority/crl.pem, for the folder of each daemon
+#        percuss-keys.sh revoke DIR FILE.pem    the same with one certificate
 # ROLE: serves (percussd), asks, administers (asks, and clears specimens), observes (sees who serves what)
 # PERCUSS_KEY_DAYS: how long what is made holds, from now (default 825)
 set -eu
@@ -78,7 +79,8 @@ END
 
 create() {
     [ ! -e "$authority" ] || fail "$authority: is there already"
-    mkdir -p "$authority"
+    mkdir -p "$authority/issued"
+    : >"$authority/issued/all"
     certificate_authority identity_ca "percuss identities"
     certificate_authority permissions_ca "percuss permissions"
     governance >"$authority/governance.xml"
@@ -179,38 +181,64 @@ add() {
     cp "$part/cert.pem" "$authority/issued/$1.$(openssl x509 -in "$part/cert.pem" -noout -serial | cut -d= -f2).pem"
     rm "$part/request" "$part/permissions.xml"
     chmod 0600 "$part"/*
+    [ ! -e "$part/crl.pem" ] || chmod 0644 "$part/crl.pem"
     mv "$part" "$root/$1"
 }
 
-# database COMMAND...: openssl ca, whose record of the revoked is authority/revoked
+# database COMMAND...: openssl ca in the authority, whose record of the revoked is revoked
 database() {
     settings=$(mktemp)
-    printf '%s\n' '[ca]' 'default_ca = one' '[one]' "database = $authority/revoked" 'default_md = sha256' \
+    trap 'rm -f "$settings" "$settings.said"' EXIT
+    printf '%s\n' '[ca]' 'default_ca = one' '[one]' 'database = revoked' 'default_md = sha256' \
         'unique_subject = no' >"$settings"
-    openssl ca -config "$settings" -cert "$authority/identity_ca.pem" -keyfile "$authority/identity_ca.key" "$@" \
+    (cd "$authority" && openssl ca -config "$settings" -cert identity_ca.pem -keyfile identity_ca.key "$@") \
         2>"$settings.said" || {
         cat "$settings.said" >&2
-        rm -f "$settings" "$settings.said"
         return 1
     }
     rm -f "$settings" "$settings.said"
 }
 
-# all certificates of that name; authorities of percuss 0.2.0 have no copies of them
-revoke() {
+# revoke_certificate FILE, unless it is already
+revoke_certificate() {
+    serial=$(openssl x509 -in "$1" -noout -serial | cut -d= -f2)
+    ! cut -f 4 "$authority/revoked" | grep -qxi "0*$serial" || return 0
+    case $1 in
+    /*) database -revoke "$1" ;;
+    *) database -revoke "$PWD/$1" ;;
+    esac || fail "$1: cannot be revoked"
+}
+
+# all certificates of that name
+revoke_name() {
     check_name "$1"
-    [ -e "$authority/identity_ca.key" ] || fail "$authority: is not there"
-    [ -e "$authority/revoked" ] || : >"$authority/revoked"
     found=
     for certificate in "$authority/issued/$1".*.pem "$root/$1/cert.pem"; do
         [ -e "$certificate" ] || continue
         found=yes
-        serial=$(openssl x509 -in "$certificate" -noout -serial | cut -d= -f2)
-        ! cut -f 4 "$authority/revoked" | grep -qxi "0*$serial" || continue
-        database -revoke "$certificate" || fail "$1: cannot be revoked"
+        revoke_certificate "$certificate"
     done
     [ -n "$found" ] || fail "$1: no certificate of that name in $authority/issued or $root"
-    database -gencrl -crldays "$days" -out "$authority/crl.new" || fail "no list of the revoked"
+    [ -e "$authority/issued/all" ] ||
+        echo "percuss-keys: $authority is from before percuss 0.3.0, which keeps a copy of what it issues: other" \
+            "certificates of $1 stay good; revoke them by their files, or create a new authority" >&2
+}
+
+revoke_file() {
+    openssl verify -no_check_time -CAfile "$authority/identity_ca.pem" "$1" >/dev/null 2>&1 ||
+        fail "$1: must be a certificate (PEM) that $authority has signed"
+    revoke_certificate "$1"
+}
+
+revoke() {
+    [ -e "$authority/identity_ca.key" ] || fail "$authority: is not there"
+    [ -e "$authority/revoked" ] || : >"$authority/revoked"
+    case $1 in
+    *.pem) revoke_file "$1" ;;
+    *) revoke_name "$1" ;;
+    esac
+    database -gencrl -crldays "$days" -out crl.new || fail "no list of the revoked"
+    chmod 0644 "$authority/crl.new"
     mv "$authority/crl.new" "$authority/crl.pem"
     echo "percuss-keys: copy $authority/crl.pem into the folder of each daemon and reload it: $1 is refused then"
 }
