@@ -133,8 +133,10 @@ static dds_entity_t create_participant(uint32_t domain, const char *security,
     if (made < 0)
         return find_reason(domain, side, made);
     dds_qos_t *qos = security ? dds_create_qos() : NULL;
-    if (qos)
-        wire_security_set(security, qos);
+    if (security && (!qos || !wire_security_set(security, qos))) {
+        dds_delete_qos(qos);
+        return DDS_RETCODE_NOT_ALLOWED_BY_SECURITY;
+    }
     dds_entity_t participant = dds_create_participant(domain, qos, NULL);
     dds_delete_qos(qos);
     if (participant > 0)

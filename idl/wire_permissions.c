@@ -7,30 +7,42 @@
 #include <dds/ddsrt/dynlib.h>
 #include <dds/security/core/dds_security_utils.h>
 #include <dds/security/dds_security_api.h>
+#include <openssl/err.h>
 #include <openssl/pem.h>
 #include <pthread.h>
 #include <search.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/queue.h>
 
-/* What is known of a handle of the plugins, which is the address of an object of theirs. */
-struct known {
-    int64_t handle;
-    /* of the permissions of a remote participant */
-    dds_security_access_control *access; /* whose handle it is; NULL: no permissions */
-    X509 *certificate;                   /* of that participant */
-    /* of the keys of a remote participant */
+#include "wire_revoked.h"
+
+/* A participant of another process, as one participant of this process sees it. Handles are
+ * addresses of objects of the plugins, and may come again when the object has gone. */
+struct peer {
     int64_t permissions;
-    /* of the keys of a reader or writer of this process; NULL: one of DDS itself */
+    dds_security_access_control *access; /* whose handle that is */
+    X509 *certificate;
+    int64_t own_keys, keys; /* of the two participants, once keys are exchanged */
+    bool cut;               /* revoked: not believed any more, whatever the next list says */
+    LIST_ENTRY(peer) others;
+};
+
+/* A reader or writer of this process. */
+struct own {
+    int64_t keys, participant; /* its keys, and those of its participant */
     char *topic;
     char **partitions;
     unsigned partition_count;
 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of these two */
-static void *all;                                        /* tree of struct known */
-static X509_CRL *revoked;
+static LIST_HEAD(, peer) peers = LIST_HEAD_INITIALIZER(peers);
+static void *owns; /* tree of struct own */
+
+/* Held while DDS is told whom to cut off, so that it does not stop meanwhile. Before `lock`. */
+static pthread_mutex_t cutting = PTHREAD_MUTEX_INITIALIZER;
 
 static atomic_ullong refused;
 
@@ -39,55 +51,128 @@ static dds_security_access_control_listener listener;
 static dds_security_access_control access_behind;
 static dds_security_crypto_key_factory keys_behind;
 
-static int compare(const void *left, const void *right)
+/* With the lock. */
+static struct peer *peer_find(int64_t permissions)
 {
-    const int64_t a = ((const struct known *)left)->handle,
-                  b = ((const struct known *)right)->handle;
-    return (a > b) - (a < b);
+    struct peer *peer;
+    LIST_FOREACH(peer, &peers, others)
+    if (peer->permissions == permissions)
+        return peer;
+    return NULL;
 }
 
-static void known_free(struct known *known)
+/* With the lock. `own_keys`, `keys`: of the participant of this process and of the other. */
+static struct peer *peer_find_pair(int64_t own_keys, int64_t keys)
 {
-    if (!known)
-        return;
-    for (unsigned i = 0; i < known->partition_count; i++)
-        free(known->partitions[i]);
-    free(known->partitions);
-    free(known->topic);
-    X509_free(known->certificate);
-    free(known);
+    struct peer *peer;
+    LIST_FOREACH(peer, &peers, others)
+    if (peer->own_keys == own_keys && peer->keys == keys)
+        return peer;
+    return NULL;
 }
 
 /* With the lock. */
-static struct known *known_find(int64_t handle)
+static void peer_free(struct peer *peer)
 {
-    struct known **found = tfind(&(struct known){.handle = handle}, &all, compare);
+    if (!peer)
+        return;
+    LIST_REMOVE(peer, others);
+    X509_free(peer->certificate);
+    free(peer);
+}
+
+static void peer_forget(int64_t permissions)
+{
+    pthread_mutex_lock(&lock);
+    peer_free(peer_find(permissions));
+    pthread_mutex_unlock(&lock);
+}
+
+/* Keeps it, with the certificate, which becomes its own; without memory it is unknown. */
+static void peer_keep(int64_t permissions, dds_security_access_control *access, X509 *certificate)
+{
+    struct peer *peer = calloc(1, sizeof *peer);
+    pthread_mutex_lock(&lock);
+    peer_free(peer_find(permissions));
+    if (peer) {
+        *peer =
+            (struct peer){.permissions = permissions, .access = access, .certificate = certificate};
+        LIST_INSERT_HEAD(&peers, peer, others);
+    }
+    pthread_mutex_unlock(&lock);
+    if (!peer)
+        X509_free(certificate);
+}
+
+/* All peers of a domain that stops: DDS is not told of them any more. */
+static void peers_forget(const dds_security_access_control *access)
+{
+    pthread_mutex_lock(&cutting);
+    pthread_mutex_lock(&lock);
+    struct peer *next;
+    for (struct peer *peer = LIST_FIRST(&peers); peer; peer = next) {
+        next = LIST_NEXT(peer, others);
+        if (peer->access == access)
+            peer_free(peer);
+    }
+    pthread_mutex_unlock(&lock);
+    pthread_mutex_unlock(&cutting);
+}
+
+/* The keys of a participant have gone. */
+static void peers_forget_keys(int64_t keys)
+{
+    struct peer *peer;
+    pthread_mutex_lock(&lock);
+    LIST_FOREACH(peer, &peers, others)
+    if (peer->own_keys == keys || peer->keys == keys)
+        peer->own_keys = peer->keys = DDS_SECURITY_HANDLE_NIL;
+    pthread_mutex_unlock(&lock);
+}
+
+static int compare(const void *left, const void *right)
+{
+    const int64_t a = ((const struct own *)left)->keys, b = ((const struct own *)right)->keys;
+    return (a > b) - (a < b);
+}
+
+static void own_free(struct own *own)
+{
+    if (!own)
+        return;
+    for (unsigned i = 0; i < own->partition_count; i++)
+        free(own->partitions[i]);
+    free(own->partitions);
+    free(own->topic);
+    free(own);
+}
+
+/* With the lock. */
+static struct own *own_find(int64_t keys)
+{
+    struct own **found = tfind(&(struct own){.keys = keys}, &owns, compare);
     return found ? *found : NULL;
 }
 
-static void known_forget(int64_t handle)
+static void own_forget(int64_t keys)
 {
     pthread_mutex_lock(&lock);
-    struct known *known = known_find(handle);
-    if (known)
-        tdelete(known, &all, compare);
+    struct own *own = own_find(keys);
+    if (own)
+        tdelete(own, &owns, compare);
     pthread_mutex_unlock(&lock);
-    known_free(known);
+    own_free(own);
 }
 
-/* Keeps `known`, which may be NULL: no memory. An object that has gone may have had the same
- * handle. */
-static void known_keep(struct known *known, int64_t handle)
+/* Without memory it is unknown. */
+static void own_keep(struct own *own)
 {
-    known_forget(handle);
-    if (!known)
-        return;
-    known->handle = handle;
+    own_forget(own->keys);
     pthread_mutex_lock(&lock);
-    const bool kept = tsearch(known, &all, compare) != NULL;
+    const bool kept = tsearch(own, &owns, compare) != NULL;
     pthread_mutex_unlock(&lock);
     if (!kept)
-        known_free(known);
+        own_free(own);
 }
 
 /* The reader or writer that this thread is making, borrowed: DDS tells its topic right before it
@@ -103,34 +188,33 @@ static void begin_endpoint(const char *topic, const DDS_Security_PartitionQosPol
     in_making.partition = partition;
 }
 
-static bool copy_partitions(struct known *known, const DDS_Security_StringSeq *names)
+static bool copy_partitions(struct own *own, const DDS_Security_StringSeq *names)
 {
-    known->partitions = calloc(names->_length + 1, sizeof *known->partitions);
-    if (!known->partitions)
+    own->partitions = calloc(names->_length + 1, sizeof *own->partitions);
+    if (!own->partitions)
         return false;
-    for (; known->partition_count < names->_length; known->partition_count++) {
-        known->partitions[known->partition_count] = strdup(names->_buffer[known->partition_count]);
-        if (!known->partitions[known->partition_count])
+    for (; own->partition_count < names->_length; own->partition_count++) {
+        own->partitions[own->partition_count] = strdup(names->_buffer[own->partition_count]);
+        if (!own->partitions[own->partition_count])
             return false;
     }
     return true;
 }
 
-/* Keeps what it is, or nothing where there is no memory. Returns the handle. */
-static int64_t end_endpoint(int64_t handle)
+/* Keeps it, or nothing where there is no memory, or DDS told no topic. Returns the handle. */
+static int64_t end_endpoint(int64_t keys, int64_t participant)
 {
-    struct known *known = handle ? calloc(1, sizeof *known) : NULL;
-    const bool is_own = known && in_making.topic && strncmp(in_making.topic, "DCPS", 4) != 0;
-    if (is_own)
-        known->topic = strdup(in_making.topic);
-    if (is_own && (!known->topic || !copy_partitions(known, &in_making.partition->name))) {
-        known_free(known);
-        known = NULL;
+    struct own *own = keys && in_making.topic ? calloc(1, sizeof *own) : NULL;
+    if (own) {
+        *own = (struct own){
+            .keys = keys, .participant = participant, .topic = strdup(in_making.topic)};
+        if (own->topic && copy_partitions(own, &in_making.partition->name))
+            own_keep(own);
+        else
+            own_free(own);
     }
-    if (handle)
-        known_keep(known, handle);
     in_making.topic = NULL;
-    return handle;
+    return keys;
 }
 
 /* Access control. */
@@ -144,18 +228,10 @@ static X509 *read_certificate(const DDS_Security_AuthenticatedPeerCredentialToke
         BIO *text = BIO_new_mem_buf(property->value, -1);
         X509 *certificate = text ? PEM_read_bio_X509(text, NULL, NULL, NULL) : NULL;
         BIO_free(text);
+        ERR_clear_error();
         return certificate;
     }
     return NULL;
-}
-
-/* With the lock. Serial numbers are an authority's own. */
-static bool is_revoked(X509 *certificate)
-{
-    X509_REVOKED *entry;
-    return revoked &&
-           X509_NAME_cmp(X509_CRL_get_issuer(revoked), X509_get_issuer_name(certificate)) == 0 &&
-           X509_CRL_get0_by_cert(revoked, &entry, certificate) == 1;
 }
 
 static void say_revoked(const X509 *certificate, DDS_Security_SecurityException *exception)
@@ -166,19 +242,37 @@ static void say_revoked(const X509 *certificate, DDS_Security_SecurityException 
                                subject);
 }
 
-/* Whether the participant with these permissions, which are known, may be believed; a list that
- * came meanwhile has it already. */
-static bool is_believed(int64_t handle, DDS_Security_SecurityException *exception)
+/* With the lock. */
+static bool is_believed(const struct peer *peer)
+{
+    return peer && peer->certificate && !peer->cut && !wire_revoked_has(peer->certificate);
+}
+
+/* Whether the participant with these permissions may be believed. */
+static bool believe(int64_t permissions, DDS_Security_SecurityException *exception)
 {
     pthread_mutex_lock(&lock);
-    const struct known *known = known_find(handle);
-    const bool believed = known && known->certificate && !is_revoked(known->certificate);
-    if (known && known->certificate && !believed) {
+    const struct peer *peer = peer_find(permissions);
+    const bool believed = is_believed(peer);
+    if (!peer)
+        DDS_Security_Exception_set(exception, "percuss", 1, 0, "out of memory for a participant");
+    else if (!peer->certificate)
+        DDS_Security_Exception_set(exception, "percuss", 1, 0, "there is no certificate");
+    else if (!believed)
+        say_revoked(peer->certificate, exception);
+    /* one that is cut has been counted */
+    if (peer && peer->certificate && !believed && !peer->cut)
         atomic_fetch_add(&refused, 1);
-        say_revoked(known->certificate, exception);
-    }
     pthread_mutex_unlock(&lock);
     return believed;
+}
+
+/* Of a participant that is not believed. */
+static void give_back(dds_security_access_control *access, int64_t permissions)
+{
+    DDS_Security_SecurityException none = DDS_SECURITY_EXCEPTION_INIT;
+    access->return_permissions_handle(access, permissions, &none);
+    DDS_Security_Exception_reset(&none);
 }
 
 static DDS_Security_PermissionsHandle validate_remote_permissions(
@@ -192,15 +286,10 @@ static DDS_Security_PermissionsHandle validate_remote_permissions(
         access, authentication, own, remote, permissions, credential, exception);
     if (!handle)
         return handle;
-    struct known *known = calloc(1, sizeof *known);
-    if (known)
-        *known = (struct known){.access = access, .certificate = read_certificate(credential)};
-    known_keep(known, handle);
-    if (is_believed(handle, exception))
+    peer_keep(handle, access, read_certificate(credential));
+    if (believe(handle, exception))
         return handle;
-    DDS_Security_SecurityException none = DDS_SECURITY_EXCEPTION_INIT;
-    access->return_permissions_handle(access, handle, &none);
-    DDS_Security_Exception_reset(&none);
+    give_back(access, handle);
     return DDS_SECURITY_HANDLE_NIL;
 }
 
@@ -208,7 +297,7 @@ static DDS_Security_boolean return_permissions_handle(dds_security_access_contro
                                                       DDS_Security_PermissionsHandle handle,
                                                       DDS_Security_SecurityException *exception)
 {
-    known_forget(handle);
+    peer_forget(handle);
     return access_behind.return_permissions_handle(access, handle, exception);
 }
 
@@ -242,23 +331,44 @@ static DDS_Security_boolean set_listener(dds_security_access_control *access,
     if (given && !listener.on_revoke_permissions)
         listener = *given;
     pthread_mutex_unlock(&lock);
+    if (!given)
+        peers_forget(access);
     return access_behind.set_listener(access, given, exception);
 }
 
 /* Cryptography. */
 
+/* DDS does not give the permissions back of whom the cryptography refuses. */
+static void dismiss(int64_t permissions)
+{
+    pthread_mutex_lock(&lock);
+    const struct peer *peer = peer_find(permissions);
+    dds_security_access_control *access = peer ? peer->access : NULL;
+    pthread_mutex_unlock(&lock);
+    if (access)
+        give_back(access, permissions);
+}
+
+/* Keys of a participant are shared by all of this process; permissions are one participant's. */
 static DDS_Security_ParticipantCryptoHandle register_matched_remote_participant(
     dds_security_crypto_key_factory *keys, const DDS_Security_ParticipantCryptoHandle own,
     const DDS_Security_IdentityHandle identity, const DDS_Security_PermissionsHandle permissions,
     const DDS_Security_SharedSecretHandle secret, DDS_Security_SecurityException *exception)
 {
+    /* a list may have come since its permissions were validated */
+    if (!believe(permissions, exception)) {
+        dismiss(permissions);
+        return DDS_SECURITY_HANDLE_NIL;
+    }
     const int64_t handle = keys_behind.register_matched_remote_participant(
         keys, own, identity, permissions, secret, exception);
-    struct known *known = handle ? calloc(1, sizeof *known) : NULL;
-    if (known)
-        known->permissions = permissions;
-    if (handle)
-        known_keep(known, handle);
+    pthread_mutex_lock(&lock);
+    struct peer *peer = handle ? peer_find(permissions) : NULL;
+    if (peer) {
+        peer->own_keys = own;
+        peer->keys = handle;
+    }
+    pthread_mutex_unlock(&lock);
     return handle;
 }
 
@@ -269,8 +379,9 @@ register_local_datawriter(dds_security_crypto_key_factory *keys,
                           const DDS_Security_EndpointSecurityAttributes *attributes,
                           DDS_Security_SecurityException *exception)
 {
-    return end_endpoint(keys_behind.register_local_datawriter(keys, participant, properties,
-                                                              attributes, exception));
+    return end_endpoint(
+        keys_behind.register_local_datawriter(keys, participant, properties, attributes, exception),
+        participant);
 }
 
 static DDS_Security_DatareaderCryptoHandle
@@ -280,23 +391,23 @@ register_local_datareader(dds_security_crypto_key_factory *keys,
                           const DDS_Security_EndpointSecurityAttributes *attributes,
                           DDS_Security_SecurityException *exception)
 {
-    return end_endpoint(keys_behind.register_local_datareader(keys, participant, properties,
-                                                              attributes, exception));
+    return end_endpoint(
+        keys_behind.register_local_datareader(keys, participant, properties, attributes, exception),
+        participant);
 }
 
-/* With the lock. Whether the participant's permissions allow it to read, or to write, what `own`
- * writes, or reads. */
-static bool may_match(const struct known *own, int64_t participant, bool reads,
+/* With the lock. Whether the permissions of the participant with these keys allow it to read, or to
+ * write, what `own` writes, or reads. */
+static bool may_match(const struct own *own, int64_t keys, bool reads,
                       DDS_Security_SecurityException *exception)
 {
-    const struct known *keys = known_find(participant);
-    const struct known *permissions = keys ? known_find(keys->permissions) : NULL;
-    if (!permissions || !permissions->access) {
+    const struct peer *peer = peer_find_pair(own->participant, keys);
+    if (!is_believed(peer)) {
         DDS_Security_Exception_set(exception, "percuss", 1, 0, "%s: no permissions are known",
                                    own->topic);
         return false;
     }
-    dds_security_access_control *access = permissions->access;
+    dds_security_access_control *access = peer->access;
     const int domain = (int)access->gv->config.domainId;
     const DDS_Security_PartitionQosPolicy partition = {
         .name = {own->partition_count, own->partition_count, own->partitions}};
@@ -304,26 +415,32 @@ static bool may_match(const struct known *own, int64_t participant, bool reads,
     if (reads) {
         const DDS_Security_SubscriptionBuiltinTopicDataSecure reader = {.topic_name = own->topic,
                                                                         .partition = partition};
-        return access_behind.check_remote_datareader(access, permissions->handle, domain, &reader,
+        return access_behind.check_remote_datareader(access, peer->permissions, domain, &reader,
                                                      &relays, exception);
     }
     const DDS_Security_PublicationBuiltinTopicDataSecure writer = {.topic_name = own->topic,
                                                                    .partition = partition};
-    return access_behind.check_remote_datawriter(access, permissions->handle, domain, &writer,
+    return access_behind.check_remote_datawriter(access, peer->permissions, domain, &writer,
                                                  exception);
 }
 
-/* A reader or writer of this process of which nothing is known, for lack of memory, matches none.
- */
+/* DDS's own readers and writers, which tell who is there, and give keys. */
+static bool is_builtin(const struct own *own)
+{
+    return strncmp(own->topic, "DCPS", 4) == 0;
+}
+
+/* A reader or writer of this process of which nothing is known matches none. */
 static bool match_is_good(int64_t endpoint, int64_t participant, bool reads,
                           DDS_Security_SecurityException *exception)
 {
     pthread_mutex_lock(&lock);
-    const struct known *own = known_find(endpoint);
-    const bool good = own && (!own->topic || may_match(own, participant, reads, exception));
+    const struct own *own = own_find(endpoint);
+    const bool good = own && (is_builtin(own) || may_match(own, participant, reads, exception));
     pthread_mutex_unlock(&lock);
     if (!own)
-        DDS_Security_Exception_set(exception, "percuss", 1, 0, "out of memory");
+        DDS_Security_Exception_set(exception, "percuss", 1, 0,
+                                   "nothing is known of the reader or writer here");
     return good;
 }
 
@@ -354,7 +471,7 @@ static DDS_Security_boolean unregister_participant(dds_security_crypto_key_facto
                                                    const DDS_Security_ParticipantCryptoHandle one,
                                                    DDS_Security_SecurityException *exception)
 {
-    known_forget(one);
+    peers_forget_keys(one);
     return keys_behind.unregister_participant(keys, one, exception);
 }
 
@@ -362,7 +479,7 @@ static DDS_Security_boolean unregister_datawriter(dds_security_crypto_key_factor
                                                   const DDS_Security_DatawriterCryptoHandle one,
                                                   DDS_Security_SecurityException *exception)
 {
-    known_forget(one);
+    own_forget(one);
     return keys_behind.unregister_datawriter(keys, one, exception);
 }
 
@@ -370,7 +487,7 @@ static DDS_Security_boolean unregister_datareader(dds_security_crypto_key_factor
                                                   const DDS_Security_DatareaderCryptoHandle one,
                                                   DDS_Security_SecurityException *exception)
 {
-    known_forget(one);
+    own_forget(one);
     return keys_behind.unregister_datareader(keys, one, exception);
 }
 
@@ -407,6 +524,7 @@ int wire_permissions_access_init(const char *argument, void **context, struct dd
 
 int wire_permissions_access_end(void *context)
 {
+    peers_forget(context);
     plugin_finalize end =
         (plugin_finalize)find_function("dds_security_ac", "finalize_access_control");
     return end ? end(context) : DDS_RETCODE_ERROR;
@@ -447,39 +565,33 @@ unsigned long long wire_permissions_refused(void)
     return atomic_load(&refused);
 }
 
-/* With the lock. One that is on the list and is there; NULL: none. */
-static struct known *found;
-static void look_at(const void *node, VISIT order, int depth)
+/* With the lock. One that is revoked and not cut off yet; NULL: none. */
+static struct peer *peer_find_revoked(void)
 {
-    (void)depth;
-    struct known *known = *(struct known *const *)node;
-    if ((order == postorder || order == leaf) && known->certificate &&
-        is_revoked(known->certificate))
-        found = known;
+    struct peer *peer;
+    LIST_FOREACH(peer, &peers, others)
+    if (peer->certificate && !peer->cut && wire_revoked_has(peer->certificate))
+        return peer;
+    return NULL;
 }
 
-unsigned wire_permissions_revoke(X509_CRL *list)
+unsigned wire_permissions_cut(void)
 {
     unsigned count = 0;
+    pthread_mutex_lock(&cutting);
     pthread_mutex_lock(&lock);
-    X509_CRL_free(revoked);
-    revoked = list;
-    for (;;) {
-        found = NULL;
-        twalk(all, look_at);
-        if (!found)
-            break;
-        /* DDS gives its handle back meanwhile */
-        const int64_t handle = found->handle;
-        dds_security_access_control *access = found->access;
-        X509_free(found->certificate);
-        found->certificate = NULL;
+    for (struct peer *peer; (peer = peer_find_revoked()) != NULL; count++) {
+        peer->cut = true;
+        const int64_t permissions = peer->permissions;
+        dds_security_access_control *access = peer->access;
+        /* DDS gives its permissions back meanwhile; of one whose keys are not exchanged yet it
+         * knows nothing, and that one is refused when they are */
         pthread_mutex_unlock(&lock);
-        listener.on_revoke_permissions(access, handle);
-        count++;
+        listener.on_revoke_permissions(access, permissions);
         pthread_mutex_lock(&lock);
     }
     pthread_mutex_unlock(&lock);
+    pthread_mutex_unlock(&cutting);
     atomic_fetch_add(&refused, count);
     return count;
 }

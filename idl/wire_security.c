@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <limits.h>
+#include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 #include "wire_permissions.h"
+#include "wire_revoked.h"
 #include "wire_validity.h"
 
 /* Files of an identity, and the properties that name them (DDS Security 1.1, 9.3.1 and 9.4.1). */
@@ -78,6 +80,7 @@ static bool key_fits(const char *folder)
     bool good = certificate && key && X509_check_private_key(certificate, key) == 1;
     X509_free(certificate);
     EVP_PKEY_free(key);
+    ERR_clear_error();
     if (certificate_file)
         fclose(certificate_file);
     if (key_file)
@@ -108,6 +111,7 @@ static X509 *read_certificate(const char *folder, const char *name)
     X509 *certificate = file ? PEM_read_X509(file, NULL, NULL, NULL) : NULL;
     if (file)
         fclose(file);
+    ERR_clear_error();
     return certificate;
 }
 
@@ -117,20 +121,20 @@ static X509_CRL *read_list(const char *folder, char *problem, size_t size)
 {
     problem[0] = 0;
     FILE *file = open_file(folder, "crl.pem");
-    if (!file && errno == ENOENT)
-        return NULL;
-    X509_CRL *list = file ? PEM_read_X509_CRL(file, NULL, NULL, NULL) : NULL;
-    X509 *authority = read_certificate(folder, "identity_ca.pem");
-    if (!file)
+    if (!file && errno != ENOENT)
         snprintf(problem, size, "security: %s/crl.pem: %s", folder, strerror(errno));
-    else if (!list || !authority || X509_CRL_verify(list, X509_get0_pubkey(authority)) != 1)
+    if (!file)
+        return NULL;
+    X509_CRL *list = PEM_read_X509_CRL(file, NULL, NULL, NULL);
+    X509 *authority = read_certificate(folder, "identity_ca.pem");
+    if (!list || !authority || X509_CRL_verify(list, X509_get0_pubkey(authority)) != 1)
         snprintf(problem, size,
                  "security: %s/crl.pem: must be a list of revoked certificates (PEM) that "
                  "identity_ca.pem has signed",
                  folder);
     X509_free(authority);
-    if (file)
-        fclose(file);
+    ERR_clear_error();
+    fclose(file);
     if (!problem[0])
         return list;
     X509_CRL_free(list);
@@ -190,9 +194,14 @@ bool wire_security_revoke(const char *folder, struct wire_revocation *found, cha
     X509_CRL *list = read_list(folder, problem, size);
     if (problem[0])
         return false;
-    const int listed = list ? sk_X509_REVOKED_num(X509_CRL_get_REVOKED(list)) : 0;
-    found->listed = listed > 0 ? (unsigned)listed : 0;
-    found->cut_off = wire_permissions_revoke(list);
+    *found = (struct wire_revocation){0};
+    if (list && !wire_revoked_take(folder, list, &found->lost)) {
+        snprintf(problem, size, "security: %s/crl.pem: out of memory", folder);
+        return false;
+    }
+    found->listed = wire_revoked_count(folder);
+    found->is_missing = !list && found->listed > 0;
+    found->cut_off = wire_permissions_cut();
     return true;
 }
 
@@ -216,11 +225,12 @@ static const char *find_plugins(void)
     return dladdr(&wire_plugin_library, &about) ? about.dli_fname : "";
 }
 
-void wire_security_set(const char *folder, dds_qos_t *qos)
+bool wire_security_set(const char *folder, dds_qos_t *qos)
 {
     char name[PATH_MAX + sizeof "file:"], problem[PATH_MAX + 128];
     struct wire_revocation revocation;
-    wire_security_revoke(folder, &revocation, problem, sizeof problem);
+    if (!wire_security_revoke(folder, &revocation, problem, sizeof problem))
+        return false;
     for (size_t i = 0; i < PLUGIN_COUNT; i++)
         dds_qset_prop(qos, plugins[i].property,
                       plugins[i].value ? plugins[i].value : find_plugins());
@@ -228,4 +238,5 @@ void wire_security_set(const char *folder, dds_qos_t *qos)
         snprintf(name, sizeof name, "file:%s/%s", folder, files[i].file);
         dds_qset_prop(qos, files[i].property, name);
     }
+    return true;
 }

@@ -30,11 +30,13 @@ bool wire_security_remark(const char *folder, const struct wire_validity *validi
 struct wire_revocation {
     unsigned listed;  /* certificates; 0: no list, or an empty one */
     unsigned cut_off; /* participants that were there and are on it */
+    unsigned lost;    /* certificates of the last list that are not on it */
+    bool is_missing;  /* there is no crl.pem any more, and the last list stays */
 };
 
-/* Reads the list anew, for all participants of this process (wire_permissions.h). A folder without
- * crl.pem revokes none. False: it is no list that identity_ca.pem has signed, as `problem` says,
- * and the last list stays. */
+/* Reads the list anew, for all participants of this process, whatever their folders
+ * (wire_revoked.h). False: it is no list that identity_ca.pem has signed, as `problem` says, and
+ * the last list stays. */
 bool wire_security_revoke(const char *folder, struct wire_revocation *found, char *problem,
                           size_t size);
 
@@ -42,7 +44,8 @@ bool wire_security_revoke(const char *folder, struct wire_revocation *found, cha
 unsigned long long wire_security_refused(void);
 
 /* Properties of a participant that uses the folder, which wire_security_check has found good; its
- * list of revoked certificates is read. */
-void wire_security_set(const char *folder, dds_qos_t *qos);
+ * list of revoked certificates is read. False: the list is bad meanwhile, and nobody is to be
+ * believed. */
+bool wire_security_set(const char *folder, dds_qos_t *qos);
 
 #endif

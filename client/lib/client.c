@@ -76,6 +76,15 @@ static void discard(struct shared_participant *shared)
     free(shared);
 }
 
+/* Reads the list of revoked certificates anew, which a new participant does by itself. False: it is
+ * bad meanwhile. */
+static bool is_list_read(const char *security)
+{
+    struct wire_revocation found;
+    char problem[512];
+    return !security || wire_security_revoke(security, &found, problem, sizeof problem);
+}
+
 /* The participant of that domain and identity (a folder; NULL: none), made by its first holder; or
  * a negative DDS code. */
 static dds_entity_t participants_hold(uint32_t domain, const char *security)
@@ -89,10 +98,11 @@ static dds_entity_t participants_hold(uint32_t domain, const char *security)
     if (shared && shared->holders == 0)
         shared->entity = wire_participant_create_client(domain, security);
     if (shared) {
-        entity = shared->entity;
+        entity = shared->holders && !is_list_read(security) ? DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
+                                                            : shared->entity;
         if (entity > 0)
             shared->holders++;
-        else
+        else if (shared->holders == 0)
             discard(shared);
     }
     pthread_mutex_unlock(&participants_lock);

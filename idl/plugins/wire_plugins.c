@@ -6,7 +6,8 @@
  * opens as if it were a file of plugins. */
 #include "wire_permissions.h"
 
-/* A program states the name that it has for the loader, the library that it is to be asked. */
+/* Of a program the name that the loader knows it by; empty in a library, whose path is looked up.
+ */
 const char *const wire_plugin_library = WIRE_PLUGIN_LIBRARY;
 
 #define EXPORTED __attribute__((visibility("default")))

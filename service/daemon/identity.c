@@ -31,6 +31,21 @@ void identity_look(struct identity *identity, double now, time_t then)
                  identity->folder, words);
 }
 
+static void log_revocation(const char *folder, const struct wire_revocation *found)
+{
+    if (found->is_missing)
+        log_line(LEVEL_WARNING, "security: %s/crl.pem: is not there any more; the last list stays",
+                 folder);
+    if (found->lost)
+        log_line(
+            LEVEL_WARNING,
+            "security: %s/crl.pem: lacks entries of the last list: %u, which are no longer revoked",
+            folder, found->lost);
+    if (found->listed)
+        log_line(LEVEL_INFO, "security: %s/crl.pem: revoked certificates: %u, cut off now: %u",
+                 folder, found->listed, found->cut_off);
+}
+
 void identity_revoke(const char *folder)
 {
     char problem[512];
@@ -39,9 +54,8 @@ void identity_revoke(const char *folder)
         return;
     if (!wire_security_revoke(folder, &found, problem, sizeof problem))
         log_line(LEVEL_ERROR, "%s; the last list stays", problem);
-    else if (found.listed)
-        log_line(LEVEL_INFO, "security: %s/crl.pem: %u certificates are revoked, %u cut off now",
-                 folder, found.listed, found.cut_off);
+    else
+        log_revocation(folder, &found);
 }
 
 bool identity_remark(const char *folder, char *remark, size_t size)

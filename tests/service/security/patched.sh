@@ -25,6 +25,24 @@ done
 settings "security: $keys/serves" "store: $work/store.db"
 start_daemon
 
+say "two identities of one process: permissions of what one saw stay when the other goes"
+mkfifo "$work/acts"
+"$peers/identities_client" "$domain" <"$work/acts" >"$work/told" 2>&1 9>&- &
+several=$!
+others="${others:-} $several"
+exec 8>"$work/acts"
+# act ANSWER ACT
+act() {
+    echo "$2" >&8
+    wait_for 40 grep -q "^$1\$" "$work/told" || fail "$2: $(cat "$work/told")"
+}
+act '0: ok' "open 0 $keys/asks 30"
+act '1: ok' "open 1 $keys/../keys/asks 30"
+act '1: freed' "free 1"
+act '2: ok' "open 2 $keys/asks 30"
+exec 8>&-
+wait "$several" || fail "the clients failed"
+
 # attack ROLE: it asks, listens and says that it is a server, for two seconds
 attack() {
     "$peers/wire_patched" "$domain" "$keys/$1" "$plugins" 2 >"$work/attack" 2>&1 9>&- &

@@ -49,8 +49,10 @@ wait_for 10 asks_on || fail "it does not ask"
 mv "$keys/stolen" "$work/away" # as the rule is: copied to its machine, and not kept
 expect 0 make_keys revoke "$keys" stolen
 shows "into the folder of each daemon"
+[ "$(stat -c %a "$keys/authority/crl.pem")" = 644 ] || fail "a daemon of another user cannot read the list"
+cp "$keys/authority/crl.pem" "$work/first.pem"
 cp "$keys/authority/crl.pem" "$keys/daemon"
-reload 'daemon/crl.pem: 1 certificates are revoked, [1-9][0-9]* cut off now'
+reload 'daemon/crl.pem: revoked certificates: 1, cut off now: [1-9]'
 before=$(answered)
 sleep 0.5
 [ "$(answered)" -eq "$before" ] || fail "it is still answered"
@@ -67,10 +69,14 @@ counted() {
 wait_for 5 counted || fail "the metrics do not tell"
 
 say "another one, a new certificate for the first name, and a list that is none"
+rm "$keys/authority/issued/all" # as authorities of 0.2.0 are
 expect 0 make_keys revoke "$keys" rig
+says "other certificates of rig stay good; revoke them by their files, or create a new authority"
+expect 1 make_keys revoke "$keys" "$keys/rig/permissions_ca.pem"
+says "must be a certificate (PEM) that $keys/authority has signed"
 expect 0 make_keys add "$keys" stolen asks
 cp "$keys/authority/crl.pem" "$keys/daemon"
-reload 'daemon/crl.pem: 2 certificates are revoked'
+reload 'daemon/crl.pem: revoked certificates: 2,'
 expect 3 ask_as rig --timeout 1
 expect 0 ask_as stolen
 expect 1 make_keys revoke "$keys" nobody
@@ -78,9 +84,15 @@ says "no certificate of that name"
 echo none >"$keys/daemon/crl.pem"
 reload 'daemon/crl.pem: must be a list of revoked certificates (PEM) that identity_ca.pem has signed; the last list stays'
 expect 3 ask_as rig --timeout 1
+rm "$keys/daemon/crl.pem"
+reload 'warning security: .*daemon/crl.pem: is not there any more; the last list stays'
+expect 3 ask_as rig --timeout 1
+cp "$work/first.pem" "$keys/daemon/crl.pem"
+reload 'warning security: .*daemon/crl.pem: lacks entries of the last list: 1, which are no longer revoked'
 stop_daemon
 
 say "at a start as well; nor does anybody start with a certificate that is revoked"
+echo none >"$keys/daemon/crl.pem"
 expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
 says "daemon/crl.pem: must be a list of revoked certificates"
 cp "$keys/authority/crl.pem" "$keys/daemon"
@@ -91,3 +103,27 @@ stop_daemon
 cp "$keys/authority/crl.pem" "$keys/rig"
 expect 2 ask_as rig
 says "rig/cert.pem: is revoked, by crl.pem"
+
+say "the daemon's own key: a client of a process that had let it in refuses it, and so do its others"
+expect 0 make_keys add "$keys" other asks
+[ "$(stat -c %a "$keys/other/crl.pem" "$keys/other/key.pem" | xargs)" = "644 600" ] || fail "modes of a new folder"
+rm "$keys/other/crl.pem"
+start_daemon
+mkfifo "$work/acts"
+"$peers/identities_client" "$domain" <"$work/acts" >"$work/told" 2>&1 9>&- &
+several=$!
+others="$others $several"
+exec 8>"$work/acts"
+# act ANSWER ACT
+act() {
+    echo "$2" >&8
+    wait_for 40 grep -q "^$1\$" "$work/told" || fail "$2: $(cat "$work/told")"
+}
+act '0: ok' "open 0 $keys/stolen 30"
+expect 0 make_keys revoke "$keys" "$keys/daemon/cert.pem"
+cp "$keys/authority/crl.pem" "$keys/stolen"
+act '1: no server' "open 1 $keys/stolen 1"
+act '2: no server' "open 2 $keys/other 1"
+exec 8>&-
+wait "$several" || fail "the clients failed"
+expect 0 percuss query --security "$keys/other" --a steel-sphere --b al-beam --speed 0.3

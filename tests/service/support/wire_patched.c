@@ -23,7 +23,7 @@ static dds_entity_t checked(dds_entity_t entity)
 static dds_entity_t open_participant(uint32_t domain, const char *identity, const char *plugins)
 {
     dds_qos_t *qos = dds_create_qos();
-    wire_security_set(identity, qos);
+    REQUIRE(wire_security_set(identity, qos), "%s: its list is bad", identity);
     dds_qset_prop(qos, "dds.sec.access.library.path", plugins);
     dds_qset_prop(qos, "dds.sec.access.library.init", "patched_access_init");
     dds_qset_prop(qos, "dds.sec.access.library.finalize", "patched_access_finalize");
