@@ -23,24 +23,11 @@ static void give_plastic(const struct deck_material *from, double stress, struct
     to->tangent = hardening > 0.0 ? to->young * hardening / (to->young + hardening) : 0.0;
 }
 
-/* decks in inches are in pounds-force, most of them: both figures are 4.4 times too small then */
-static bool tell_pounds(struct deck *deck, const struct file_material *stated, double unit,
-                        const struct material *to)
-{
-    static const double INCH = 0.0254;
-    bool imperial = fabs(unit - INCH) < 1e-9 || fabs(unit - 12.0 * INCH) < 1e-9;
-    return !imperial ||
-           deck_tell(deck,
-                     "%s: %s is read in newtons: E %.4g Pa, density %.4g kg/m^3; of a deck in "
-                     "pounds-force give the material yourself",
-                     stated->file, stated->name, to->young, to->density);
-}
-
 enum percuss_status deck_material_give(struct deck *deck, const struct deck_material *from,
                                        double unit, struct mesh_part *part, struct fault *fault)
 {
     struct material *to = &part->material;
-    char where[PLACE_SIZE];
+    char where[PLACE_SIZE], doubt[MESH_REMARK_SIZE];
     snprintf(where, sizeof where, "%s:%zu", deck->files[from->place.file], from->place.line);
     const struct file_material stated = {.file = where,
                                          .name = from->name,
@@ -54,7 +41,8 @@ enum percuss_status deck_material_give(struct deck *deck, const struct deck_mate
     enum percuss_status status = file_material_convert(&stated, unit, to, fault);
     if (status != PERCUSS_OK)
         return status;
-    if (!tell_pounds(deck, &stated, unit, to))
+    file_material_doubt(&stated, unit, to, doubt, sizeof doubt);
+    if (doubt[0] && !deck_tell(deck, "%s", doubt))
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", deck->files[0]);
     give_plastic(from, 1.0 / (unit * unit), to);
     part->has_material = from->elastic && from->dense;

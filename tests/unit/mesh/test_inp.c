@@ -458,8 +458,9 @@ static void tells_of_every_table(void **state)
     static const char INCHES[] = "*ELASTIC\n30e6, .3\n*DENSITY\n7.3e-4\n*PLASTIC\n5e4, 0.\n";
     if (file_read(".inp", file_with(BRICK, STEEL, INCHES), 0.0254, &mesh))
         fail_msg("%s", file_fault.text);
-    assert_non_null(strstr(mesh.remarks[0], ":36: Steel is read in newtons: E 4.65e+10 Pa, density "
-                                            "1754 kg/m^3; of a deck in pounds-force give"));
+    assert_non_null(strstr(mesh.remarks[0],
+                           ":36: Steel is read in newtons: E 4.65e+10 Pa, *DENSITY "
+                           "1754 kg/m^3; of a deck in pounds-force give"));
     solid_mesh_free(&mesh);
 }
 
