@@ -349,7 +349,8 @@ static enum percuss_status tell_missing(struct body *body, const struct deck_set
     static const char *const MISSING[] = {"nodes or elements", "elements", "faces or nodes"};
     size_t missing = body->missing;
     for (size_t i = 0; set->kind != DECK_ELEMENTS && i < labels->count; i++)
-        missing += !bsearch(&labels->values[i], body->nodes.values, body->nodes.count,
+        missing += body->nodes.count == 0 ||
+                   !bsearch(&labels->values[i], body->nodes.values, body->nodes.count,
                             sizeof *body->nodes.values, compare_labels);
     return missing == 0 ||
                    deck_tell(body->deck, "set %s (%s): %zu of the %s that it names are not there",
