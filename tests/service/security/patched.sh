@@ -4,17 +4,8 @@
 # Somebody with an identity, whose own plugins of DDS Security were patched so that they forbid him nothing,
 # may do what his role says all the same, and no more: daemon and clients look for themselves.
 . "$(dirname "$0")/../support/lib.sh"
-
-command -v openssl >/dev/null || {
-    say "no openssl: skipped"
-    exit 77
-}
-keys=$work/keys
+. "$(dirname "$0")/../support/keys.sh"
 plugins=$peers/libpatched_plugins.so
-
-make_keys() {
-    sh "$source_dir/deploy/security/percuss-keys.sh" "$@"
-}
 
 say "an authority, and one of each role"
 mkdir "$keys"
@@ -26,22 +17,12 @@ settings "security: $keys/serves" "store: $work/store.db"
 start_daemon
 
 say "two identities of one process: permissions of what one saw stay when the other goes"
-mkfifo "$work/acts"
-"$peers/identities_client" "$domain" <"$work/acts" >"$work/told" 2>&1 9>&- &
-several=$!
-others="${others:-} $several"
-exec 8>"$work/acts"
-# act ANSWER ACT
-act() {
-    echo "$2" >&8
-    wait_for 40 grep -q "^$1\$" "$work/told" || fail "$2: $(cat "$work/told")"
-}
+clients_begin
 act '0: ok' "open 0 $keys/asks 30"
 act '1: ok' "open 1 $keys/../keys/asks 30"
 act '1: freed' "free 1"
 act '2: ok' "open 2 $keys/asks 30"
-exec 8>&-
-wait "$several" || fail "the clients failed"
+clients_end
 
 # attack ROLE: it asks, listens and says that it is a server, for two seconds
 attack() {

@@ -3,16 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # A certificate is withdrawn: a reload cuts off who shows it, and from then on he is not let in, at a start neither.
 . "$(dirname "$0")/../support/lib.sh"
-
-command -v openssl >/dev/null || {
-    say "no openssl: skipped"
-    exit 77
-}
-keys=$work/keys
-
-make_keys() {
-    sh "$source_dir/deploy/security/percuss-keys.sh" "$@"
-}
+. "$(dirname "$0")/../support/keys.sh"
 ask_as() {
     identity=$1
     shift
@@ -109,21 +100,11 @@ expect 0 make_keys add "$keys" other asks
 [ "$(stat -c %a "$keys/other/crl.pem" "$keys/other/key.pem" | xargs)" = "644 600" ] || fail "modes of a new folder"
 rm "$keys/other/crl.pem"
 start_daemon
-mkfifo "$work/acts"
-"$peers/identities_client" "$domain" <"$work/acts" >"$work/told" 2>&1 9>&- &
-several=$!
-others="$others $several"
-exec 8>"$work/acts"
-# act ANSWER ACT
-act() {
-    echo "$2" >&8
-    wait_for 40 grep -q "^$1\$" "$work/told" || fail "$2: $(cat "$work/told")"
-}
+clients_begin
 act '0: ok' "open 0 $keys/stolen 30"
 expect 0 make_keys revoke "$keys" "$keys/daemon/cert.pem"
 cp "$keys/authority/crl.pem" "$keys/stolen"
 act '1: no server' "open 1 $keys/stolen 1"
 act '2: no server' "open 2 $keys/other 1"
-exec 8>&-
-wait "$several" || fail "the clients failed"
+clients_end
 expect 0 percuss query --security "$keys/other" --a steel-sphere --b al-beam --speed 0.3

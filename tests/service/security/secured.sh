@@ -4,16 +4,7 @@
 # A secured deployment: who has an identity of the same authority may do what its role says; who has
 # none, a foreign or a forged one gets nothing; and nothing starts half secured.
 . "$(dirname "$0")/../support/lib.sh"
-
-command -v openssl >/dev/null || {
-    say "no openssl: skipped"
-    exit 77
-}
-keys=$work/keys
-
-make_keys() {
-    sh "$source_dir/deploy/security/percuss-keys.sh" "$@"
-}
+. "$(dirname "$0")/../support/keys.sh"
 
 # as NAME COMMAND [ARGUMENT...]: a command of percuss with that identity
 as() {
