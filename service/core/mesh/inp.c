@@ -301,15 +301,23 @@ static bool read_numbers(struct inp *inp, const char *name, char **line, int cou
     return good;
 }
 
+/* The `count` values of a row, if it is one of the `most` to take. */
+static bool take_values(struct inp *inp, const char *name, char *line, int count, int most,
+                        double *values, enum percuss_status *status)
+{
+    bool taken = false;
+    *status = PERCUSS_OK;
+    if (read_numbers(inp, name, &line, count, values))
+        *status = take_row(inp, name, line, most, &taken);
+    return taken;
+}
+
 static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
+    enum percuss_status status;
     double values[2];
-    bool taken = false;
-    enum percuss_status status = read_numbers(inp, "*ELASTIC", &line, 2, values)
-                                     ? take_row(inp, "*ELASTIC", line, 1, &taken)
-                                     : PERCUSS_OK;
-    if (!taken)
+    if (!take_values(inp, "*ELASTIC", line, 2, 1, values, &status))
         return status;
     material->young = values[0];
     material->poisson = values[1];
@@ -320,12 +328,9 @@ static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
 static enum percuss_status inp_read_density(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
+    enum percuss_status status;
     double value;
-    bool taken = false;
-    enum percuss_status status = read_numbers(inp, "*DENSITY", &line, 1, &value)
-                                     ? take_row(inp, "*DENSITY", line, 1, &taken)
-                                     : PERCUSS_OK;
-    if (!taken)
+    if (!take_values(inp, "*DENSITY", line, 1, 1, &value, &status))
         return status;
     material->density = value;
     material->dense = true;
@@ -335,12 +340,9 @@ static enum percuss_status inp_read_density(struct inp *inp, char *line)
 static enum percuss_status inp_read_plastic(struct inp *inp, char *line)
 {
     struct deck_material *material = &inp->deck.materials[inp->material];
+    enum percuss_status status;
     double values[2];
-    bool taken = false;
-    enum percuss_status status = read_numbers(inp, "*PLASTIC", &line, 2, values)
-                                     ? take_row(inp, "*PLASTIC", line, 2, &taken)
-                                     : PERCUSS_OK;
-    if (!taken)
+    if (!take_values(inp, "*PLASTIC", line, 2, 2, values, &status))
         return status;
     material->stress[material->stress_count] = values[0];
     material->strain[material->stress_count++] = values[1];
