@@ -11,30 +11,10 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 # the last one before requests could name a server, and before stores had checksums
 revision=729c323
-kept=${1:-}
-old=${kept:-$(mktemp -d)}
+release=0.1.0
+# shellcheck source=tests/old_release.sh
+. "$here/old_release.sh"
 
-if [ ! -x "$old/build/bin/percussd" ]; then
-    cd "$here/.."
-    git rev-parse --quiet --verify "$revision^{commit}" >/dev/null 2>&1 || {
-        echo "upgrade: NOT TRIED: the history of 0.1.0 ($revision) is not here" >&2
-        exit 77
-    }
-    mkdir -p "$old"
-    git archive "$revision" | tar -x -C "$old"
-    { cmake -S "$old" -B "$old/build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF \
-        ${CMAKE_C_COMPILER_LAUNCHER:+"-DCMAKE_C_COMPILER_LAUNCHER=$CMAKE_C_COMPILER_LAUNCHER"} &&
-        cmake --build "$old/build" --parallel "$(nproc)" --target percussd percuss; } >"$old/log" 2>&1 || {
-        tail -n 30 "$old/log" >&2
-        exit 1
-    }
-fi
-
-PERCUSS_SOURCE=$here/..
-# shellcheck source=tests/service/support/lib.sh
-. "$here/service/support/lib.sh"
-[ -n "$kept" ] || trap 'cleanup; rm -rf "$old"' EXIT
-today=$bin
 # the programs of then do not know PERCUSS_DOMAIN
 ask() {
     program=$1
@@ -67,7 +47,7 @@ say "programs of then among themselves, which leave a store"
 cp "$old/config/catalogue.yaml" "$work/catalogue.yaml"
 settings "store: dents.db" "tables: tables"
 cp -r "$old/config/tables" "$work/tables"
-bin=$old/build/bin
+bin=$then
 start_daemon
 everything "$bin"
 ask "$bin" --specimen-b rod-1
@@ -88,12 +68,12 @@ logged 'left out' && fail "a table of then is left out"
 everything "$today"
 
 say "clients of then ask the daemon of today"
-everything "$old/build/bin"
-ask "$old/build/bin" --specimen-b rod-1
+everything "$then"
+ask "$then" --specimen-b rod-1
 [ "$(impacts)" = 4 ] || fail "$(impacts) impacts, not 4"
 stop_daemon
 
 say "the daemon of then leaves a store of today alone"
-bin=$old/build/bin
+bin=$then
 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" >"$out" 2>"$err" 9>&- && fail "it starts"
 says "is of version"

@@ -10,32 +10,11 @@
 # Exit code 77: the history is not here.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-revision=93761563 # of 0.2.0
-kept=${1:-}
-old=${kept:-$(mktemp -d)}
+revision=93761563
+release=0.2.0
+# shellcheck source=tests/old_release.sh
+. "$here/old_release.sh"
 
-if [ ! -x "$old/build/bin/percussd" ]; then
-    cd "$here/.."
-    git rev-parse --quiet --verify "$revision^{commit}" >/dev/null 2>&1 || {
-        echo "upgrade_under_load: NOT TRIED: the history of 0.2.0 ($revision) is not here" >&2
-        exit 77
-    }
-    mkdir -p "$old"
-    git archive "$revision" | tar -x -C "$old"
-    { cmake -S "$old" -B "$old/build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF \
-        ${CMAKE_C_COMPILER_LAUNCHER:+"-DCMAKE_C_COMPILER_LAUNCHER=$CMAKE_C_COMPILER_LAUNCHER"} &&
-        cmake --build "$old/build" --parallel "$(nproc)" --target percussd percuss; } >"$old/log" 2>&1 || {
-        tail -n 30 "$old/log" >&2
-        exit 1
-    }
-fi
-
-PERCUSS_SOURCE=$here/..
-# shellcheck source=tests/service/support/lib.sh
-. "$here/service/support/lib.sh"
-[ -n "$kept" ] || trap 'cleanup; rm -rf "$old"' EXIT
-today=$bin
-then=$old/build/bin
 settings "store: dents.db"
 
 # client NAME PROGRAMS ID: asks for one impact after the other, each under its number until it is answered; NAME.done
