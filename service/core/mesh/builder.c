@@ -237,18 +237,12 @@ static int compare_edges(const void *left, const void *right)
     return a->at < b->at ? -1 : a->at > b->at;
 }
 
-/* The first nodes of an element are its corners. */
-static size_t corner_count(enum element_type type)
-{
-    return type == ELEMENT_TET10 ? 4 : 8;
-}
-
 /* The corners whose middle a node is, by their natural coordinates; false: it is that of a face or
  * of the element. */
 static bool find_ends(enum element_type type, size_t node, size_t ends[2])
 {
     double middle[3], corners[8][3];
-    size_t count = corner_count(type), zeros = 0;
+    size_t count = element_corner_count(type), zeros = 0;
     element_node(type, node, middle);
     for (size_t i = 0; i < count; i++)
         element_node(type, i, corners[i]);
@@ -276,7 +270,7 @@ static bool collect_edges(const struct builder *builder, struct edges *edges)
     for (size_t e = 0; e < builder->element_count; e++) {
         const struct builder_element *element = &builder->elements[e];
         const size_t *nodes = builder->connectivity.values + element->first;
-        size_t corners = corner_count(element->type), ends[2];
+        size_t corners = element_corner_count(element->type), ends[2];
         for (size_t i = corners; i < element_node_count(element->type); i++) {
             if (!find_ends(element->type, i, ends))
                 continue;

@@ -36,6 +36,13 @@ static inline size_t element_node_count(enum element_type type)
     return COUNTS[type];
 }
 
+/* The first nodes of an element are its corners. */
+static inline size_t element_corner_count(enum element_type type)
+{
+    static const size_t COUNTS[ELEMENT_TYPES] = {4, 8, 8, 6};
+    return COUNTS[type];
+}
+
 /* In natural coordinates. */
 static inline double element_natural_volume(enum element_type type)
 {
