@@ -4,7 +4,6 @@
 #include "mesh/bdf_card.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -373,15 +372,14 @@ bool bdf_size(const struct bdf_card *card, size_t field, size_t *value)
 {
     const char *text = bdf_field(card, field);
     char *end;
-    errno = 0;
     unsigned long long number = strtoull(text, &end, 10);
     if (*text == '\0')
         return true;
-    if (isdigit((unsigned char)*text) && *end == '\0' && !errno && number < SIZE_MAX) {
+    if (isdigit((unsigned char)*text) && *end == '\0' && number <= SCAN_MOST) {
         *value = number;
         return true;
     }
-    bdf_refuse(card, "field %zu: %s: must be a whole number >= 0", field, text);
+    bdf_refuse(card, "field %zu: %s: must be a whole number from 0 to %zu", field, text, SCAN_MOST);
     return false;
 }
 

@@ -4,7 +4,6 @@
 #include "mesh/card.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -165,15 +164,14 @@ char *card_field(char **cursor)
 bool card_label(const struct scan *scan, const char *subject, const char *field, size_t *value)
 {
     char *end;
-    errno = 0;
     unsigned long long number = field ? strtoull(field, &end, 10) : 0;
-    if (field && isdigit((unsigned char)*field) && *end == '\0' && !errno && number > 0 &&
-        number < SIZE_MAX) {
+    if (field && isdigit((unsigned char)*field) && *end == '\0' && number > 0 &&
+        number <= SCAN_MOST) {
         *value = number;
         return true;
     }
-    scan_refuse(scan, "%s: %.40s: must be a whole number > 0 and < %zu", subject,
-                field ? field : "nothing", SIZE_MAX);
+    scan_refuse(scan, "%s: %.40s: must be a whole number from 1 to %zu", subject,
+                field ? field : "nothing", SCAN_MOST);
     return false;
 }
 

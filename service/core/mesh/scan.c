@@ -165,14 +165,17 @@ bool scan_size(struct scan *scan, const char *subject, size_t *value)
         if (!take_bytes(scan, subject, &number, sizeof number))
             return false;
         *value = number;
-        return true;
+        if (number <= SCAN_MOST)
+            return true;
+        scan_refuse(scan, "%s: %zu: must be from 0 to %zu", subject, *value, SCAN_MOST);
+        return false;
     }
     skip_space(scan);
     char *end;
-    errno = 0;
     unsigned long long number = strtoull(scan->text + scan->at, &end, 10);
-    if (errno || !isdigit((unsigned char)scan->text[scan->at]) || !scan_pass(scan, end))
-        return refuse_word(scan, subject, "a whole number >= 0");
+    if (number > SCAN_MOST || !isdigit((unsigned char)scan->text[scan->at]) ||
+        !scan_pass(scan, end))
+        return refuse_word(scan, subject, "a whole number from 0 to 9223372036854775807");
     *value = number;
     return true;
 }

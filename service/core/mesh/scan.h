@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/fault.h"
 
@@ -31,6 +32,9 @@ enum percuss_status scan_refuse(const struct scan *scan, const char *format, ...
 
 /* Copies the next line without its end, cut to fit, and skips it; false: there is none. */
 bool scan_line(struct scan *scan, char *line, size_t size);
+
+/* The largest whole number that is taken: behind it there are labels for nodes that are made. */
+#define SCAN_MOST ((size_t)INT64_MAX)
 
 /* Numbers, between white space or as bytes; false: there is none, or it is out of range; the
  * refusal begins with `subject`. */

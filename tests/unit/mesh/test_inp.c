@@ -609,7 +609,7 @@ static void refuses_with_the_line(void **state)
                  "*NSET: 17: must be a parameter, KEY or KEY=VALUE");
     /* the label that stands for none */
     file_refused(".inp", file_with(BRICK, "16,17,18,19,20", "16,17,18,19,18446744073709551615"),
-                 "18446744073709551615: must be a whole number > 0 and < 18446744073709551615");
+                 "18446744073709551615: must be a whole number from 1 to 9223372036854775807");
     file_refused(".inp", file_with(TETRAHEDRON, "2, 1,2,3,4", "1, 1,2,3,4"),
                  "element 1: is there twice");
     file_refused(".inp", "\xFF\xFE*\n", ".inp:1: must begin with a keyword, such as *NODE");

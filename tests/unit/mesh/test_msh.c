@@ -228,6 +228,9 @@ static void refuses_with_the_line(void **state)
     file_refused(".msh", file_with(TEXT, "2 1 2 3 4 5 6 7 8 9 10\n", "2 1 2 3 4 5 6 7 8 9 77\n"),
                  ": element 2: node 77: must be one of the file's nodes");
     file_refused(".msh", file_with(TEXT, "\n4\n40\n", "\n4\n4\n"), ": node 4: is there twice");
+    file_refused(".msh", file_with(TEXT, "\n40\n", "\n18446744073709551615\n"),
+                 ": number of a node: 18446744073709551615: must be a whole number from 0 to "
+                 "9223372036854775807");
     file_refused(".msh", file_with(TEXT, "3 9 11 1\n2 1 2 3 4 5 6 7 8 9 10", "3 9 4 1\n2 1 2 3 4"),
                  "4-node tetrahedron: must be of second order, as linear ones are too stiff");
     file_refused(".msh", file_with(TEXT, "3 9 11 1\n", "3 9 18 1\n"),
