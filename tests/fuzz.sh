@@ -6,7 +6,8 @@
 # sanitizers, in build-fuzz/. What is found lies in build-fuzz/findings; to be kept in tests/fuzz/corpus
 # once it is mended. New inputs are kept in build-fuzz/inputs from run to run.
 # usage: fuzz.sh [SECONDS [HARNESS...]]    of each harness, 5 by default; all of them
-# PERCUSS_FUZZ_SEED=N: the inputs that N gives; without it others in each run
+# PERCUSS_FUZZ_SEED=N: the first 20000 inputs that N gives, or those of SECONDS if they are fewer: on each machine the
+# same, so that what passes with more seconds passes with less; without it others in each run
 # PERCUSS_FUZZ_JOBS=N: so many harnesses side by side, 1 by default
 set -eu
 cd "$(dirname "$0")/.."
@@ -26,19 +27,30 @@ mkdir -p build-fuzz/findings build-fuzz/empty
 # an input that names files finds none
 cd build-fuzz/empty
 
+# libFuzzer compares addresses, too: where they differ from run to run, so do its inputs
+same=
+if setarch -R true 2>/dev/null; then same='setarch -R'; fi
+
 # try HARNESS: false if it found something
 try() {
     inputs=$root/build-fuzz/inputs/$1
+    most=-1
+    if [ -n "${PERCUSS_FUZZ_SEED:-}" ]; then
+        inputs=$root/build-fuzz/seeded/$1
+        most=20000
+        rm -rf "$inputs"
+    fi
     log=$root/build-fuzz/$1.log
     mkdir -p "$inputs"
     # the solver works for up to a second and a half, longer under sanitizers; readers for an instant
     case $1 in solve) patience=60 ;; *) patience=20 ;; esac
-    while read -r seed; do
-        if [ -d "$seed" ]; then cp "$seed"/* "$inputs"; else cp "$seed" "$inputs"; fi
-    done <"$root/build-fuzz/tests/fuzz/$1.seeds"
+    # in one order everywhere
+    seeds=$(while read -r seed; do
+        if [ -d "$seed" ]; then ls -d "$seed"/*; else echo "$seed"; fi
+    done <"$root/build-fuzz/tests/fuzz/$1.seeds" | LC_ALL=C sort | paste -sd ,)
     code=0
-    "$root/build-fuzz/tests/fuzz/fuzz_$1" "$inputs" -max_total_time="$seconds" \
-        -seed="${PERCUSS_FUZZ_SEED:-0}" \
+    $same "$root/build-fuzz/tests/fuzz/fuzz_$1" "$inputs" -seed_inputs="$seeds" -reload=0 \
+        -max_total_time="$seconds" -runs="$most" -seed="${PERCUSS_FUZZ_SEED:-0}" \
         -timeout="$patience" -rss_limit_mb=3000 -malloc_limit_mb=100000 -print_final_stats=1 \
         -artifact_prefix="$root/build-fuzz/findings/$1-" >/dev/null 2>"$log" &
     fuzzer=$!
