@@ -49,11 +49,14 @@ if(SPHINX_BUILD AND NOT DEFINED PERCUSS_HAVE_MYST)
   endif()
 endif()
 if(SPHINX_BUILD AND PERCUSS_HAVE_MYST)
-  add_custom_target(site VERBATIM COMMAND ${SPHINX_BUILD} -q -W --keep-going -n -b html
+  # the Python package loads the libraries, and is asked for its docstrings
+  add_custom_target(site VERBATIM COMMAND ${CMAKE_COMMAND} -E env PERCUSS_LIBRARY=$<TARGET_FILE:libpercuss> ${SPHINX_BUILD} -q -W --keep-going -n -b html
     -c ${PROJECT_SOURCE_DIR}/deploy/site -d ${PROJECT_BINARY_DIR}/site.trees ${PROJECT_SOURCE_DIR}
     ${PROJECT_BINARY_DIR}/site)
+  add_dependencies(site libpercuss libpercuss-local slowscale libpercuss-measured)
   if(BUILD_TESTING)
     add_test(NAME site COMMAND sh ${PROJECT_SOURCE_DIR}/tests/site/site.sh ${PROJECT_SOURCE_DIR})
+    set_tests_properties(site PROPERTIES ENVIRONMENT PERCUSS_LIBRARY=$<TARGET_FILE:libpercuss>)
   endif()
 else()
   message(STATUS "without sphinx-build and MyST: no target site")

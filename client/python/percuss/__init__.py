@@ -1,6 +1,6 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ask a percussd what an impact does.
+"""Ask a percussd what an impact does::
 
     import percuss
 
@@ -9,7 +9,7 @@
         reply = client.solve(question).raise_for_status()
         print(reply.contacts[0].restitution, reply.contacts[0].sub_impacts["impulse"])
 
-Without a daemon, the solver in this process: `with percuss.Local() as client: ...`, the rest is the same.
+Without a daemon, the solver in this process: `with percuss.Local() as client:`, the rest is the same.
 
 SI units throughout. A call that fails raises a CallError; a refusal by the server is an answer whose
 status and message say why. No compiled part: it loads libpercuss, from PERCUSS_LIBRARY if that is set,

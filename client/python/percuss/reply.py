@@ -87,7 +87,7 @@ class ContactResult:
     slip_after: FloatArray
     """The same after the impact."""
     tangential_restitution: float
-    """-slip_after.slip_before / |slip_before|^2; nan without slip or friction."""
+    """-slip_after.slip_before / slip_before.slip_before; nan without slip or friction."""
     restitution_kinematic: float
     """-gap rate after / before; nan where there are more contacts."""
     restitution_energetic: float

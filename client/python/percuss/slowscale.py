@@ -1,6 +1,6 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-"""The slow scale of a co-simulation: tells an engine when an impact is due, asks what it does, and applies the answer.
+"""The slow scale of a co-simulation: tells an engine when an impact is due, asks what it does, and applies the answer::
 
     slow = percuss.slowscale.SlowScale(["steel-sphere", "al-beam"], engine, client)
     while engine.now() < end:
