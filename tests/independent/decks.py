@@ -312,6 +312,12 @@ def differences(answer, right):
             yield f"{key} {values} is not {expected} ({error:.1e})"
 
 
+def parts_in(answer):
+    """What the report says of each part."""
+    return [f"{p['name']} {p['material']} {p['young']:.6g} {p['density']:.6g} {p['elements']} {p['volume']:.6g} {p['mass']:.6g}"
+            for p in json.loads(answer)["part_list"]]
+
+
 def judge(name, wrong):
     print(f"{'MISSED ' if wrong else ''}{name}{': ' if wrong else ''}{'; '.join(wrong)}", flush=True)
     if wrong:
@@ -323,6 +329,10 @@ for name, files, arguments, right, warning in right_cases():
     done = run(files, arguments)
     wrong = [done.stderr.strip()] if done.returncode else list(differences(done.stdout, right))
     told = [] if done.returncode else json.loads(done.stdout)["warnings"]
+    if name == "two materials":
+        # cubes of 10 mm
+        listed = [f"L STEEL 2.1e+11 7800 1 1e-06 {7800 * 1e-6:.6g}", f"R AL 7e+10 2700 1 1e-06 {2700 * 1e-6:.6g}"]
+        wrong += [] if parts_in(done.stdout) == listed else [f"parts {parts_in(done.stdout)}"]
     if not wrong and (not any(warning in line for line in told) if warning else told):
         wrong = [f"tells {told}, should tell {warning}"]
     judge(name, wrong)

@@ -4,6 +4,7 @@
 #include "mesh/bulk.h"
 
 #include <math.h>
+#include <stdint.h>
 
 #include "mesh/element.h"
 #include "model/vector.h"
@@ -59,15 +60,15 @@ double bulk_element_det(const struct solid_mesh *mesh, size_t element, double *v
     return smallest * element_natural_volume(type) / fabs(*volume);
 }
 
-void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
+/* the elements of a part; `part` SIZE_MAX: all */
+static void bulk_add_elements(const struct solid_mesh *mesh, size_t part, struct bulk *bulk)
 {
-    *bulk = (struct bulk){.smallest_det = INFINITY, .smallest_volume = INFINITY};
     /* type by type, each with its rule */
     for (enum element_type type = ELEMENT_TET10; type < ELEMENT_TYPES; type++) {
         struct element_rule rule;
         element_rule_make(type, &rule);
         for (size_t e = 0; e < mesh->element_count; e++) {
-            if (mesh->types[e] != type)
+            if (mesh->types[e] != type || (part != SIZE_MAX && mesh->parts[e] != part))
                 continue;
             double points[ELEMENT_MOST_NODES][3];
             element_points(mesh, e, points);
@@ -81,8 +82,15 @@ void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
             }
             bulk->smallest_volume = fmin(bulk->smallest_volume, volume);
             bulk->largest_volume = fmax(bulk->largest_volume, volume);
+            bulk->element_count++;
         }
     }
+}
+
+static void bulk_sum(const struct solid_mesh *mesh, size_t part, struct bulk *bulk)
+{
+    *bulk = (struct bulk){.smallest_det = INFINITY, .smallest_volume = INFINITY};
+    bulk_add_elements(mesh, part, bulk);
     /* inertia about the centre of mass (Steiner) */
     scale3(1.0 / bulk->mass, bulk->centre, bulk->centre);
     double square = dot3(bulk->centre, bulk->centre);
@@ -90,4 +98,14 @@ void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
         for (int j = 0; j < 3; j++)
             bulk->inertia[3 * i + j] -=
                 bulk->mass * ((i == j ? square : 0.0) - bulk->centre[i] * bulk->centre[j]);
+}
+
+void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
+{
+    bulk_sum(mesh, SIZE_MAX, bulk);
+}
+
+void bulk_of_part(const struct solid_mesh *mesh, size_t part, struct bulk *bulk)
+{
+    bulk_sum(mesh, part, bulk);
 }

@@ -8,6 +8,7 @@
 #include "mesh/solid_mesh.h"
 
 struct bulk {
+    size_t element_count;
     double volume;       /* m^3 */
     double mass;         /* kg; each part has its material */
     double centre[3];    /* of mass, m, in the mesh's frame */
@@ -19,6 +20,9 @@ struct bulk {
 
 /* Evaluates det J in the points of quadrature and in the nodes. */
 void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk);
+
+/* The same of one part alone, an index of mesh->part. */
+void bulk_of_part(const struct solid_mesh *mesh, size_t part, struct bulk *bulk);
 
 /* The smallest det J of an element over its mean, and its volume. */
 double bulk_element_det(const struct solid_mesh *mesh, size_t element, double *volume);

@@ -47,6 +47,22 @@ static void tell_mass(const struct reduction *reduction)
            reduction->mesh.element_labels[bulk->smallest_at]);
 }
 
+/* A line of each part: what it is made of, and how much of it there is. */
+static void tell_parts(const struct solid_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const struct material *material = &mesh->part[i].material;
+        struct bulk bulk;
+        bulk_of_part(mesh, i, &bulk);
+        printf("part            \"%s\" of %s (%.4g GPa, %.4g, %.4g kg/m^3", mesh->part[i].name,
+               material->name, 1e-9 * material->young, material->poisson, material->density);
+        if (isfinite(material->yield))
+            printf(", yields at %.4g MPa", 1e-6 * material->yield);
+        printf("): %zu element%s, %.6g m^3, %.6g kg\n", bulk.element_count,
+               bulk.element_count == 1 ? "" : "s", bulk.volume, bulk.mass);
+    }
+}
+
 /* The shortest contacts that modes and mesh serve to 5e-4, and to 1 %, s. */
 static double shortest_contact(const struct reduction *reduction, int which)
 {
@@ -109,6 +125,7 @@ static void report_text(const struct reduction *reduction)
            reduction->mesh.node_count, reduction->mesh.element_count, reduction->mesh.part_count,
            reduction->mesh.part_count == 1 ? "" : "s", 1e3 * reduction->findings.extent[0],
            1e3 * reduction->findings.extent[1], 1e3 * reduction->findings.extent[2]);
+    tell_parts(&reduction->mesh);
     tell_mass(reduction);
     if (reduction->supports[0])
         printf("held            %s; %zu motion%s as a whole left\n", reduction->supports,
@@ -118,13 +135,18 @@ static void report_text(const struct reduction *reduction)
     printf("%s: %.12s, %.1f s\n", options->body, reduction->body->hash, reduction->seconds);
 }
 
-/* A number as JSON has it: null where there is none. */
-static void put_number(const char *name, double value)
+/* A further member of an object behind what separates it: null where there is no number. */
+static void put_member(const char *between, const char *name, double value)
 {
     if (isfinite(value))
-        printf(",\n  \"%s\": %.17g", name, value);
+        printf("%s\"%s\": %.17g", between, name, value);
     else
-        printf(",\n  \"%s\": null", name);
+        printf("%s\"%s\": null", between, name);
+}
+
+static void put_number(const char *name, double value)
+{
+    put_member(",\n  ", name, value);
 }
 
 static void put_count(const char *name, size_t value)
@@ -153,6 +175,40 @@ static void put_list(const char *name, size_t count, const double *values, doubl
     putchar(']');
 }
 
+/* a line of each */
+static void put_parts(const struct solid_mesh *mesh)
+{
+    printf(",\n  \"part_list\": [");
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const struct material *material = &mesh->part[i].material;
+        struct bulk bulk;
+        bulk_of_part(mesh, i, &bulk);
+        put_text(i ? ",\n    {\"name\": " : "\n    {\"name\": ", mesh->part[i].name);
+        put_text(", \"material\": ", material->name);
+        put_member(", ", "young", material->young);
+        put_member(", ", "poisson", material->poisson);
+        put_member(", ", "density", material->density);
+        put_member(", ", "yield", material->yield);
+        printf(", \"elements\": %zu", bulk.element_count);
+        put_member(", ", "volume", bulk.volume);
+        put_member(", ", "mass", bulk.mass);
+        putchar('}');
+    }
+    putchar(']');
+}
+
+/* of the mesh's reader and of its checks */
+static void put_warnings(const struct reduction *reduction)
+{
+    const struct solid_mesh *mesh = &reduction->mesh;
+    printf(",\n  \"warnings\": [");
+    for (size_t i = 0; i < mesh->remark_count; i++)
+        put_text(i ? ", " : "", mesh->remarks[i]);
+    for (size_t i = 0; i < reduction->findings.remark_count; i++)
+        put_text(i || mesh->remark_count ? ", " : "", reduction->findings.remarks[i]);
+    putchar(']');
+}
+
 /* One JSON object, numbers with 17 digits. */
 static void report_json(const struct reduction *reduction)
 {
@@ -166,6 +222,7 @@ static void report_json(const struct reduction *reduction)
     put_count("nodes", reduction->mesh.node_count);
     put_count("elements", reduction->mesh.element_count);
     put_count("parts", reduction->mesh.part_count);
+    put_parts(&reduction->mesh);
     put_list("extent", 3, reduction->findings.extent, 1.0);
     put_number("mass", bulk->mass);
     put_number("volume", bulk->volume);
@@ -199,13 +256,7 @@ static void report_json(const struct reduction *reduction)
     put_number("flexibility_largest_error", sites->largest_error);
     put_number("force_imbalance", sites->imbalance);
     put_number("response_asymmetry", sites->asymmetry);
-    printf(",\n  \"warnings\": [");
-    const struct solid_mesh *mesh = &reduction->mesh;
-    for (size_t i = 0; i < mesh->remark_count; i++)
-        put_text(i ? ", " : "", mesh->remarks[i]);
-    for (size_t i = 0; i < reduction->findings.remark_count; i++)
-        put_text(i || mesh->remark_count ? ", " : "", reduction->findings.remarks[i]);
-    putchar(']');
+    put_warnings(reduction);
     put_number("memory", reduction->cost.memory);
     put_number("seconds", reduction->seconds);
     put_number("seconds_modes", reduction->modes_seconds);

@@ -16,6 +16,8 @@ say "mass, modes and flexibility of a block of 40 x 15 x 10 mm"
 expect 0 reduce $steel --modes 12
 says '12 modes: about'
 shows '48 elements'
+shows 'part            "left" of given (210 GPa, 0.3, 7800 kg/m^3): 24 elements, 3e-06 m^3, 0.0234 kg'
+shows 'part            "right" of given'
 shows 'mass            0.0468 kg'
 shows 'centre          0.02 0.0075 0.005 m'
 shows 'volume          6e-06 m^3'

@@ -33,6 +33,40 @@ static void test_block(void **state)
     }
 }
 
+/* The left third of a block is of one material, the rest of another: each part by itself, and their
+ * sum. */
+static void test_parts(void **state)
+{
+    (void)state;
+    static const double size[3] = {0.3, 0.04, 0.02};
+    struct solid_mesh mesh;
+    struct bulk bulk, left, right;
+    struct mesh_part part[2] = {{.material = STEEL}, {.material = STEEL}}, *one;
+    part[1].material.density = 2700.0;
+    solid_shape_block(ELEMENT_HEX20, size, (size_t[3]){3, 1, 1}, &STEEL, &mesh);
+    one = mesh.part;
+    mesh.part = part;
+    mesh.part_count = 2;
+    for (size_t e = 0; e < mesh.element_count; e++)
+        mesh.parts[e] = mesh.points[mesh.nodes[mesh.first[e]]][0] < 0.05 ? 0 : 1;
+    bulk_of_part(&mesh, 0, &left);
+    bulk_of_part(&mesh, 1, &right);
+    bulk_of(&mesh, &bulk);
+    assert_int_equal(left.element_count, 1);
+    assert_int_equal(right.element_count, 2);
+    near_relative(left.volume, 8e-5, 1e-13);
+    near_relative(left.mass, 0.624, 1e-13);
+    near_relative(left.centre[0], 0.05, 1e-13);
+    near_relative(right.volume, 1.6e-4, 1e-13);
+    near_relative(right.mass, 0.432, 1e-13);
+    near_relative(right.centre[0], 0.2, 1e-13);
+    near_relative(right.inertia[0], 0.432 * (16e-4 + 4e-4) / 12.0, 1e-12);
+    near_relative(bulk.mass, left.mass + right.mass, 1e-14);
+    mesh.part = one;
+    mesh.part_count = 1;
+    solid_mesh_free(&mesh);
+}
+
 /* Parabolas through nodes that are spaced by an angle a enclose a^4/30 less than the circle: a is
  * pi/16 between the nodes of 16 elements around; the next term is of a^6. */
 static void test_cylinder(void **state)
@@ -77,6 +111,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_block),
+        cmocka_unit_test(test_parts),
         cmocka_unit_test(test_cylinder),
         cmocka_unit_test(test_folded_element),
     };
