@@ -5,7 +5,7 @@ the first frequencies, free and held, against an assembly that shares nothing wi
 words.
 
 The reference: shape functions by the inverse of the monomials' matrix at the nodes, Gauss's rule of four points a direction
-(collapsed for tetrahedra), dense eigenvalues. Elements are sheared but straight, so that both assemblies are exact; nodes
+(collapsed for tetrahedra and wedges), dense eigenvalues. Elements are sheared but straight, so that both assemblies are exact; nodes
 lie on eighths of a millimetre, so that eight columns hold them.
 
 usage: meshes.py PERCUSS_REDUCE [FOLDER]     FOLDER keeps the files
@@ -29,22 +29,27 @@ MODES = 4
 # ---------------------------------------------------------------- the block, with nodes in an order of our own
 
 EDGES = {4: [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+         6: [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
          8: [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
 FACES = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 # corners of a cell as steps along x, y, z
 CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+SIDES = {4: [(0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)],
+         6: [(0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+         8: FACES}
 KUHN = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+WEDGES = [(0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7)]
 
 
 class Block:
-    """Cells of unequal size, sheared; elements of `kind` (tet10, hex20, hex27). The face x = 0 is to be held."""
+    """Cells of unequal size, sheared; elements of `kind` (tet10, wedge15, hex20, hex27). The face x = 0 is to be held."""
 
     def __init__(self, kind):
         self.kind, self.index, self.points, self.elements = kind, {}, [], []
         for i in range(2):
             corners = [(i + a, b, c) for a, b, c in CUBE]
-            for cell in [[corners[t] for t in tet] for tet in KUHN] if kind == "tet10" else [corners]:
-                self.add(cell)
+            for cell in {"tet10": KUHN, "wedge15": WEDGES}.get(kind, [range(8)]):
+                self.add([corners[c] for c in cell])
         self.points = np.array(self.points)
         self.foot = [n for n, key in enumerate(self.index) if key[0] == 0]
 
@@ -64,12 +69,11 @@ class Block:
         return self.index[key]
 
     def corners(self):
-        return 4 if self.kind == "tet10" else 8
+        return {"tet10": 4, "wedge15": 6}.get(self.kind, 8)
 
     def foot_faces(self):
         """Triangles or quadrangles, corners and mid nodes, of the face x = 0."""
-        sides = [(0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)] if self.kind == "tet10" else FACES
-        edges, held = EDGES[self.corners()], set(self.foot)
+        sides, edges, held = SIDES[self.corners()], EDGES[self.corners()], set(self.foot)
         for element in self.elements:
             for side in sides:
                 if not all(element[c] in held for c in side):
@@ -86,6 +90,9 @@ def natural(kind):
     if kind == "tet10":
         at = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
         powers = [(a, b, c) for a in range(3) for b in range(3) for c in range(3) if a + b + c <= 2]
+    elif kind == "wedge15":  # once squared along the third direction, no more than linear in the others
+        at = [(0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1), (1, 0, 1), (0, 1, 1)]
+        powers = [(a, b, c) for a in range(3) for b in range(3) for c in range(3) if a + b <= (1 if c == 2 else 2)]
     else:
         at = [tuple(2 * k - 1 for k in corner) for corner in CUBE]
         powers = [(a, b, c) for a in range(3) for b in range(3) for c in range(3)]
@@ -100,6 +107,9 @@ def natural(kind):
 
 def rule(kind):
     x, w = np.polynomial.legendre.leggauss(4)
+    if kind == "wedge15":
+        y, v = (x + 1) / 2, w / 2
+        return [((a, b * (1 - a), c), u * s * t * (1 - a)) for a, u in zip(y, v) for b, s in zip(y, v) for c, t in zip(x, w)]
     if kind != "tet10":
         return [((a, b, c), u * v * t) for a, u in zip(x, w) for b, v in zip(x, w) for c, t in zip(x, w)]
     x, w = (x + 1) / 2, w / 2
@@ -168,12 +178,14 @@ class Reference:
 
 # our node of each node of a format; our own order is VTK's, but for the faces of 27 nodes: ours are bottom, top, front,
 # right, back, left
-VTK = {"tet10": range(10), "hex20": range(20), "hex27": list(range(20)) + [25, 23, 22, 24, 20, 21, 26]}
-ABAQUS = {"tet10": range(10), "hex20": range(20)}
-NASTRAN = {"tet10": range(10), "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]}
+VTK = {"tet10": range(10), "wedge15": range(15), "hex20": range(20), "hex27": list(range(20)) + [25, 23, 22, 24, 20, 21, 26]}
+ABAQUS = {"tet10": range(10), "wedge15": range(15), "hex20": range(20)}
+NASTRAN = {"tet10": range(10), "wedge15": [*range(9), 12, 13, 14, 9, 10, 11], "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]}
 UNV = {"tet10": [0, 4, 1, 5, 2, 6, 7, 8, 9, 3],
+       "wedge15": [0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11],
        "hex20": [0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15]}
 GMSH = {"tet10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
+        "wedge15": [0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10],
         "hex20": [*range(8), 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14],
         "hex27": [*range(8), 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14, 20, 22, 25, 23, 24, 21, 26]}
 
@@ -215,7 +227,7 @@ def bdf(block, style, *, place=None, grid=(), mesh_only=False, corners=None, hea
         wide = place is not None
         cells = [f"{v:.11G}" if "." in f"{v:.11G}" else f"{v:.11G}." for v in x] if wide else [number(v) for v in x]
         text += bdf_card(["GRID", i + 1, *(grid or [""]), *cells], "large" if wide else style)
-    name = "CTETRA" if block.kind == "tet10" else "CHEXA"
+    name = {"tet10": "CTETRA", "wedge15": "CPENTA"}.get(block.kind, "CHEXA")
     for e, element in enumerate(block.elements):
         nodes = [element[i] + 1 for i in NASTRAN[block.kind]][:corners]
         text += bdf_card([name, e + 1, 3, *nodes], style)
@@ -224,11 +236,15 @@ def bdf(block, style, *, place=None, grid=(), mesh_only=False, corners=None, hea
     return text + ("" if mesh_only else "ENDDATA\n")
 
 
-def vtk(block, version, binary, corners=None):
-    order = VTK[block.kind]
+# a wedge whose first triangle is seen from the other side, as VTK's manual has it
+OVER = [0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13]
+
+
+def vtk(block, version, binary, corners=None, over=False):
+    order = OVER if over else VTK[block.kind]
     cells = [[e[i] for i in order][:corners] for e in block.elements]
     faces = list(block.foot_faces())
-    code = {4: 10, 8: 12, 10: 24, 20: 25, 27: 29}[len(cells[0])]
+    code = {4: 10, 6: 13, 8: 12, 10: 24, 15: 26, 20: 25, 27: 29}[len(cells[0])]
     flat = 5 if len(faces[0]) == 6 else 9
     rows = cells + [f[:3 if flat == 5 else 4] for f in faces]
     if corners is None:
@@ -272,7 +288,7 @@ def unv(block, nodes_in=2411, elements_in=2412, groups_in=2467, corners=None):
         lines = [nodes[i:i + 8] for i in range(0, len(nodes), 8)]
         return "".join("".join(f"{v:10}" for v in row) + "\n" for row in [head, *lines])
 
-    solid = {4: 111, 8: 115, 10: 118, 20: 116}[corners or len(block.elements[0])]
+    solid = {4: 111, 6: 112, 8: 115, 10: 118, 15: 113, 20: 116}[corners or len(block.elements[0])]
     for e, element in enumerate(block.elements):
         order = UNV[block.kind] if not corners else range(corners)
         text += add(e + 1, solid, [element[i] + 1 for i in order])
@@ -297,7 +313,7 @@ def msh41(block, binary=False, corners=None, tag=1, partitions=0, mirrored=False
     if mirrored:  # corners 2 and 3 change places, and their edges
         cells = [[c[i] for i in [0, 2, 1, 3, 6, 5, 4, 7, 9, 8]] for c in cells]
     faces = [[n + 1 for n in (f[:len(f) // 2] if corners else f)] for f in block.foot_faces()]
-    solid = {4: 4, 8: 5, 10: 11, 20: 17, 27: 12}[len(cells[0])]
+    solid = {4: 4, 6: 6, 8: 5, 10: 11, 15: 18, 20: 17, 27: 12}[len(cells[0])]
     flat = {3: 2, 4: 3, 6: 9, 8: 16}[len(faces[0])]
     out = [f"$MeshFormat\n4.1 {int(binary)} 8\n".encode()]
 
@@ -364,7 +380,7 @@ def msh22(block):
 
 def inp(block):
     text = "*HEADING\na block\n*NODE\n" + "".join(f"{i + 1}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(block.points))
-    text += f"*ELEMENT, TYPE={'C3D10' if block.kind == 'tet10' else 'C3D20'}, ELSET=block\n"
+    text += f"*ELEMENT, TYPE={ {'tet10': 'C3D10', 'wedge15': 'C3D15'}.get(block.kind, 'C3D20')}, ELSET=block\n"
     for e, element in enumerate(block.elements):
         nodes = [element[i] + 1 for i in ABAQUS[block.kind]]
         text += f"{e + 1}, " + ", ".join(map(str, nodes[:15])) + (",\n" + ", ".join(map(str, nodes[15:])) if nodes[15:] else "") + "\n"
@@ -396,10 +412,10 @@ BEFORE_GROUPS = (b"LOOKUP_TABLE t 1\n\x01\x0a\x03\x04\nFIELD f 1\nnames 1 2 stri
                  b"METADATA\nCOMPONENT_NAMES\nX%20Y\n\n")
 
 
-def right_files(tet, hexa, full):
+def right_files(tet, hexa, full, wedge):
     """(name, contents, reference, arguments, set that is held)"""
     given = ["--young", "210GPa", "--poisson", ".3", "--density", "7800"]
-    t, h, f = tet.block, hexa.block, full.block
+    t, h, f, w = tet.block, hexa.block, full.block, wedge.block
     spc, foot, seven = "SPC 1", "foot", "group 7"
     yield "blank.bdf", bdf(h, "blank"), hexa, [], spc
     yield "plus.bdf", bdf(t, "plus"), tet, [], spc
@@ -436,6 +452,16 @@ def right_files(tet, hexa, full):
     yield "linear.msh", msh41(t, corners=4), tet, [*given, "--raise"], foot
     yield "tets.inp", inp(t), tet, [], foot
     yield "bricks.msh", inp(h), hexa, [], foot  # a deck, whatever its name
+    yield "wedges.bdf", bdf(w, "blank"), wedge, [], spc
+    yield "linearwedges.bdf", bdf(w, "plus", corners=6), wedge, ["--raise"], None
+    yield "wedges.vtk", vtk(w, 2.0, False), wedge, given, seven
+    yield "overwedges.vtk", vtk(w, 5.1, True, over=True), wedge, given, seven
+    yield "linearwedges.vtk", vtk(w, 3.0, True, corners=6), wedge, [*given, "--raise"], seven
+    yield "wedges.unv", unv(w), wedge, given, foot
+    yield "linearwedges.unv", unv(w, corners=6), wedge, [*given, "--raise"], foot
+    yield "wedges.msh", msh41(w, binary=True), wedge, given, foot
+    yield "linearwedges.msh", msh41(w, corners=6), wedge, [*given, "--raise"], foot
+    yield "wedges.inp", inp(w), wedge, [], foot
     if shutil.which("gmsh"):
         yield "older.msh", msh22(t), tet, given, foot
 
@@ -490,16 +516,50 @@ def check(program, path, reference, arguments, held):
     report, name = json.loads(run.stdout), path.name
     frequencies = reference.held if held else reference.free
     inertia = np.reshape(report["inertia"], (3, 3))
+    # a reader that turned nothing over says nothing of it
+    if "wedges" in name and any("wrong way round" in line for line in report["warnings"]):
+        print(f"{name}: {report['warnings']}")
+        return False
     return (close(name, "mass", report["mass"], reference.mass, reference.mass)
             & close(name, "centre", report["centre"], reference.centre, 0.02)
             & close(name, "inertia", inertia, reference.inertia, reference.inertia.max(), 1e-7)
             & close(name, "frequencies", report["frequencies"][:MODES], frequencies, frequencies[0], 1e-7))
 
 
+# a sheared block of prisms
+PRISMS = """SetFactory("OpenCASCADE");
+Point(1) = {0,0,0}; Point(2) = {20,0,0}; Point(3) = {22,7,0}; Point(4) = {1,9,0};
+Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Extrude {2,1,10} { Surface{1}; Layers{2}; Recombine; }
+"""
+
+
+def prisms_of_gmsh(program, folder):
+    """One mesh of 15-node prisms as Gmsh itself writes it in each format: how many differ from its deck of C3D15."""
+    write(folder / "prisms.geo", PRISMS)
+    given, reports = ["--young", "210GPa", "--poisson", ".3", "--density", "7800"], {}
+    for kind in ("inp", "msh", "vtk", "unv", "bdf"):
+        path = folder / f"prisms.{kind}"
+        subprocess.run(["gmsh", "-3", "-order", "2", "-clmax", "8", "-setnumber", "Mesh.SecondOrderIncomplete", "1",
+                        "-setnumber", "Mesh.SaveAll", "1", str(folder / "prisms.geo"), "-format", kind, "-o", str(path)],
+                       capture_output=True, check=True, timeout=60)
+        run = reduce(program, path, given)
+        reports[kind] = json.loads(run.stdout) if run.returncode == 0 else print(f"{path.name}: {run.stderr.strip()}")
+    right, failed = reports.pop("inp"), 0
+    for kind, report in reports.items():
+        # coordinates of bulk data have eight columns
+        within = 1e-6 if kind == "bdf" else 1e-10
+        failed += not (report and close(f"prisms.{kind}", "mass", report["mass"], 0.012909, 0.012909, within)
+                       & close(f"prisms.{kind}", "frequencies", report["frequencies"], right["frequencies"],
+                               right["frequencies"][0], within))
+    return failed
+
+
 def main():
     program = sys.argv[1]
     keep = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-    references = [Reference(kind) for kind in ("tet10", "hex20", "hex27")]
+    references = [Reference(kind) for kind in ("tet10", "hex20", "hex27", "wedge15")]
     # the block in closed form: base times height, sheared
     for reference in references:
         assert abs(reference.mass / (DENSITY * 20 * 6 * 8e-9) - 1) < 1e-12
@@ -520,6 +580,9 @@ def main():
             if run.returncode == 0 or words not in run.stderr:
                 print(f"{name}: must be refused with \"{words}\": {run.returncode} {run.stderr.strip()}")
                 failed += 1
+        if shutil.which("gmsh"):
+            count += 4
+            failed += prisms_of_gmsh(program, folder)
     print(f"{count} files, {failed} failed")
     return failed > 0
 

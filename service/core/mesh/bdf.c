@@ -193,14 +193,28 @@ static enum percuss_status read_frame_of_points(struct bdf *bdf, const struct bd
     return add_frame(bdf, card, &frame);
 }
 
-/* Solids, with the card's node of each node in Gmsh's order. */
+/* Solids by the second letter of their cards, with the card's node of each node in Gmsh's order
+ * (MSC Nastran Quick Reference Guide: mid nodes of the first face, of the edges between the faces,
+ * of the other face, each in turn). */
 static const struct bdf_solid {
+    char letter;
     enum element_type type;
     size_t corners, nodes;
+    const char *name; /* by which preprocessors know it */
     unsigned char order[20];
 } SOLIDS[] = {
-    {ELEMENT_TET10, 4, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
-    {ELEMENT_HEX20, 8, 20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 9, 13, 10, 14, 15, 16, 19, 17, 18}}};
+    {'T', ELEMENT_TET10, 4, 10, "Tet10", {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+    {'P', ELEMENT_WEDGE15, 6, 15, "Wedge15", {0, 1, 2, 3, 4, 5, 6, 8, 9, 7, 10, 11, 12, 14, 13}},
+    {'H', ELEMENT_HEX20, 8, 20, "Hex20", {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
+                                          12, 9, 13, 10, 14, 15, 16, 19, 17, 18}}};
+
+static const struct bdf_solid *find_solid(const struct bdf_card *card)
+{
+    const struct bdf_solid *solid = SOLIDS;
+    while (solid->letter != card->name[1])
+        solid++;
+    return solid;
+}
 
 /* the nodes of the card, the number of mid nodes that it has */
 static bool read_solid_nodes(const struct bdf_card *card, const struct bdf_solid *solid,
@@ -238,13 +252,12 @@ static enum percuss_status check_middles(const struct bdf *bdf, const struct bdf
                       "%s: has %zu nodes: must be of second order, %zu nodes, as linear ones are "
                       "too stiff (first frequency 4 to 15 %% high): mesh with mid-side nodes "
                       "(%s) and export again, or raise them by --raise",
-                      bdf_field(card, 2), solid->corners, solid->nodes,
-                      solid->corners == 4 ? "Tet10" : "Hex20");
+                      bdf_field(card, 2), solid->corners, solid->nodes, solid->name);
 }
 
 static enum percuss_status read_solid(struct bdf *bdf, const struct bdf_card *card)
 {
-    const struct bdf_solid *solid = &SOLIDS[card->name[1] != 'T'];
+    const struct bdf_solid *solid = find_solid(card);
     size_t label, nodes[20], ordered[20], middles;
     if (!bdf_label(card, 2, &label))
         return PERCUSS_BAD_REQUEST;
@@ -432,8 +445,8 @@ static enum percuss_status read_parameter(struct bdf *bdf, const struct bdf_card
 static enum percuss_status refuse_card(struct bdf *bdf, const struct bdf_card *card)
 {
     (void)bdf;
-    return bdf_refuse(card, "is not read: must be GRID, CORD1R to CORD2S, CTETRA of 10 or CHEXA of "
-                            "20 nodes");
+    return bdf_refuse(card, "is not read: must be GRID, CORD1R to CORD2S, CTETRA of 10, CPENTA of "
+                            "15 or CHEXA of 20 nodes");
 }
 
 static const struct {
@@ -449,8 +462,10 @@ static const struct {
              {"CORD2S", read_frame_of_points},
              {"CTETRA", read_solid},
              {"CHEXA", read_solid},
+             {"CPENTA", read_solid},
              {"CTETRA_", read_solid}, /* as meshio writes them */
              {"CHEXA_", read_solid},
+             {"CPENTA_", read_solid},
              {"CTRIA3", read_shell},
              {"CTRIA6", read_shell},
              {"CTRIAR", read_shell},
@@ -468,7 +483,6 @@ static const struct {
              {"CORD1RX", refuse_card},
              {"CORD2RX", refuse_card},
              {"CORD3R", refuse_card},
-             {"CPENTA", refuse_card},
              {"CPYRAM", refuse_card},
              {"CPYRA", refuse_card},
              {"CTETRA1", refuse_card},
@@ -854,18 +868,20 @@ static enum percuss_status check_solids(const struct bdf *bdf)
     if (bdf->builder.element_count > 0)
         return PERCUSS_OK;
     if (bdf->shells > 0)
-        return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
-                         "%s: has %zu shells (CQUAD4, CTRIA3, ...) and no solid: mesh the volume "
-                         "with CTETRA of 10 or CHEXA of 20 nodes, or give the part as STEP",
-                         bdf->file, bdf->shells);
+        return fault_set(
+            bdf->fault, PERCUSS_BAD_REQUEST,
+            "%s: has %zu shells (CQUAD4, CTRIA3, ...) and no solid: mesh the volume "
+            "with CTETRA of 10, CPENTA of 15 or CHEXA of 20 nodes, or give the part as STEP",
+            bdf->file, bdf->shells);
     if (bdf->grid_count == 0 && bdf->other_count == 0)
         return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
-                         "%s: no cards of bulk data: must have BEGIN BULK, then GRID, CTETRA or "
-                         "CHEXA, PSOLID, MAT1",
+                         "%s: no cards of bulk data: must have BEGIN BULK, then GRID, CTETRA, "
+                         "CPENTA or CHEXA, PSOLID, MAT1",
                          bdf->file);
     name_others(bdf, names);
     return fault_set(bdf->fault, PERCUSS_BAD_REQUEST,
-                     "%s: no solid elements: must have CTETRA of 10 or CHEXA of 20 nodes%s%s",
+                     "%s: no solid elements: must have CTETRA of 10, CPENTA of 15 or CHEXA of 20 "
+                     "nodes%s%s",
                      bdf->file, names[0] ? "; cards that are not read: " : "", names);
 }
 

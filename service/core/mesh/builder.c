@@ -526,6 +526,8 @@ static bool turn_elements(struct builder *builder, struct solid_mesh *mesh)
         turn_over(mesh->types[e], nodes);
         if (!(bulk_element_det(mesh, e, &volume) > 0.0))
             turn_over(mesh->types[e], nodes);
+        else if (builder->wedges_either_way && mesh->types[e] == ELEMENT_WEDGE15)
+            continue;
         else if (count++ == 0)
             first = mesh->element_labels[e];
     }

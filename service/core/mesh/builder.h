@@ -38,6 +38,7 @@ struct builder_set {
 /* Zero it before use. Functions that add return false when out of memory. */
 struct builder {
     bool raise; /* elements may have BUILDER_MIDDLE: the caller wants linear ones raised */
+    bool wedges_either_way; /* the format's wedges may run either way round: none is told of */
     size_t node_count, node_room;
     struct builder_node *nodes;
     size_t element_count, element_room;

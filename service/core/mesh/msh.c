@@ -91,7 +91,15 @@ static void msh_groups_free(struct msh_groups *groups)
 enum { LINE_SIZE = 256, MOST_ENTITY_TAGS = 64 };
 
 /* Gmsh's numbers of types of elements; 0 nodes: unknown */
-enum { MSH_TET4 = 4, MSH_HEX8 = 5, MSH_TET10 = 11, MSH_HEX27 = 12, MSH_HEX20 = 17 };
+enum {
+    MSH_TET4 = 4,
+    MSH_HEX8 = 5,
+    MSH_WEDGE6 = 6,
+    MSH_TET10 = 11,
+    MSH_HEX27 = 12,
+    MSH_HEX20 = 17,
+    MSH_WEDGE15 = 18
+};
 static const struct {
     unsigned char nodes, dimension;
     const char *name;
@@ -422,22 +430,26 @@ static enum percuss_status msh_check_type(const struct msh *msh, int type)
     snprintf(number, sizeof number, "type %d", type);
     if (type <= 0 || (size_t)type >= sizeof TYPES / sizeof *TYPES)
         return refuse_type(msh, number, "one of second order (gmsh -order 2 makes it)");
-    bool linear = type == MSH_TET4 || type == MSH_HEX8;
-    if (TYPES[type].dimension < 3 || type == MSH_TET10 || type == MSH_HEX20 || type == MSH_HEX27 ||
-        (linear && msh->builder.raise))
+    bool linear = type == MSH_TET4 || type == MSH_HEX8 || type == MSH_WEDGE6;
+    bool second =
+        type == MSH_TET10 || type == MSH_HEX20 || type == MSH_HEX27 || type == MSH_WEDGE15;
+    if (TYPES[type].dimension < 3 || second || (linear && msh->builder.raise))
         return PERCUSS_OK;
     if (linear)
         return refuse_type(msh, TYPES[type].name,
                            "of second order, as linear ones are too stiff (first frequency 4 to 15 "
                            "% high): gmsh -order 2 makes it, --raise takes straight edges");
-    return refuse_type(msh, TYPES[type].name, "10-node tetrahedra, 20- or 27-node hexahedra");
+    return refuse_type(msh, TYPES[type].name,
+                       "10-node tetrahedra, 20- or 27-node hexahedra, 15-node prisms "
+                       "(Mesh.SecondOrderIncomplete=1 makes these)");
 }
 
 static enum element_type msh_element(int type)
 {
-    return type == MSH_TET10 || type == MSH_TET4 ? ELEMENT_TET10
-           : type == MSH_HEX27                   ? ELEMENT_HEX27
-                                                 : ELEMENT_HEX20;
+    return type == MSH_TET10 || type == MSH_TET4       ? ELEMENT_TET10
+           : type == MSH_HEX27                         ? ELEMENT_HEX27
+           : type == MSH_WEDGE15 || type == MSH_WEDGE6 ? ELEMENT_WEDGE15
+                                                       : ELEMENT_HEX20;
 }
 
 static enum percuss_status read_elements_of(struct msh *msh, int type, int entity, size_t count)

@@ -161,8 +161,14 @@ static const struct unv_kind {
     const char *name;
     unsigned char order[20];
 } KINDS[] = {{111, ELEMENT_TET10, 4, "linear tetrahedron", {0, 1, 2, 3}},
+             {112, ELEMENT_WEDGE15, 6, "linear wedge", {0, 1, 2, 3, 4, 5}},
              {115, ELEMENT_HEX20, 8, "linear brick", {0, 1, 2, 3, 4, 5, 6, 7}},
              {118, ELEMENT_TET10, 10, "parabolic tetrahedron", {0, 2, 4, 9, 1, 3, 5, 6, 8, 7}},
+             {113,
+              ELEMENT_WEDGE15,
+              15,
+              "parabolic wedge",
+              {0, 2, 4, 9, 11, 13, 1, 5, 6, 3, 7, 8, 10, 14, 12}},
              {116, ELEMENT_HEX20, 20, "parabolic brick", {0, 2, 4, 6, 12, 14, 16, 18, 1,  7,
                                                           8, 3, 9, 5, 10, 11, 13, 19, 15, 17}}};
 
@@ -180,7 +186,8 @@ static enum percuss_status add_unv_solid(struct unv *unv, size_t label, long pro
     if (kind->nodes <= 8 && !unv->builder.raise)
         return scan_refuse(
             &unv->scan,
-            "element %zu: %s (%ld): must be parabolic (118, 116), as linear ones are too stiff "
+            "element %zu: %s (%ld): must be parabolic (118, 116, 113), as linear ones are too "
+            "stiff "
             "(first frequency 4 to 15 %% high): Salome: Modification, Convert to/from quadratic; "
             "FreeCAD: ElementOrder 2nd; or raise them by --raise",
             label, kind->name, kind->number);
@@ -234,8 +241,8 @@ static enum percuss_status add_unv_element(struct unv *unv, const long head[6], 
     }
     if (!place.solid && head[1] >= 101 && head[1] <= 119)
         return scan_refuse(&unv->scan,
-                           "element %ld: kind %ld: must be a parabolic tetrahedron (118) or brick "
-                           "(116)",
+                           "element %ld: kind %ld: must be a parabolic tetrahedron (118), brick "
+                           "(116) or wedge (113)",
                            head[0], head[1]);
     place.count = place.solid ? 0 : count < ELEMENT_MOST_NODES ? count : ELEMENT_MOST_NODES;
     if (!place.solid)

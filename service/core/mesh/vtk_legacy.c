@@ -539,8 +539,14 @@ static const struct vtk_cell {
 } CELLS[] = {
     {"tetrahedron", 10, ELEMENT_TET10, 4, {0, 1, 2, 3}},
     {"hexahedron", 12, ELEMENT_HEX20, 8, {0, 1, 2, 3, 4, 5, 6, 7}},
+    {"wedge", 13, ELEMENT_WEDGE15, 6, {0, 1, 2, 3, 4, 5}},
     {"quadratic tetrahedron", 24, ELEMENT_TET10, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
     {"Lagrange tetrahedron", 71, ELEMENT_TET10, 10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+    {"quadratic wedge",
+     26,
+     ELEMENT_WEDGE15,
+     15,
+     {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10}},
     {"quadratic hexahedron", 25, ELEMENT_HEX20, 20, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
                                                      16, 9, 17, 10, 18, 19, 12, 15, 13, 14}},
     {"triquadratic hexahedron", 29, ELEMENT_HEX27, 27, {0,  1,  2,  3,  4,  5,  6,  7,  8,
@@ -591,8 +597,8 @@ static enum percuss_status add_solid(struct vtk *vtk, size_t cell, const struct 
     if (kind->nodes <= 8 && !vtk->builder.raise) {
         snprintf(message, sizeof message,
                  "%s of %zu nodes (type %d): must be of second order, as linear ones are too stiff "
-                 "(first frequency 4 to 15 %% high): write VTK_QUADRATIC_TETRA (24) or _HEXAHEDRON "
-                 "(25), or raise them by --raise",
+                 "(first frequency 4 to 15 %% high): write VTK_QUADRATIC_TETRA (24), _HEXAHEDRON "
+                 "(25) or _WEDGE (26), or raise them by --raise",
                  kind->name, kind->nodes, kind->type);
         return refuse_cell(vtk, cell, message);
     }
@@ -619,8 +625,8 @@ static enum percuss_status add_cell(struct vtk *vtk, size_t cell, size_t first, 
             kind = &CELLS[i];
     if (!kind && !is_flat(type)) {
         snprintf(message, sizeof message,
-                 "type %d: must be a tetrahedron of 10 nodes (24) or a hexahedron of 20 or 27 (25, "
-                 "29)",
+                 "type %d: must be a tetrahedron of 10 nodes (24), a hexahedron of 20 or 27 (25, "
+                 "29) or a wedge of 15 (26)",
                  type);
         return refuse_cell(vtk, cell, message);
     }
@@ -671,6 +677,7 @@ enum percuss_status vtk_legacy_read(const char *path, double unit, bool raise,
     struct vtk vtk = {0};
     memset(mesh, 0, sizeof *mesh);
     vtk.builder.raise = raise;
+    vtk.builder.wedges_either_way = true;
     enum percuss_status status = scan_open(path, &vtk.scan, fault);
     if (status == PERCUSS_OK)
         status = read_head(&vtk);

@@ -367,7 +367,9 @@ static void refuses_with_the_line(void **state)
                  ".bdf:15: 7,8,9,10: a line has 8 fields behind its name");
     file_refused(".bdf", deck(GRIDS, "CTETRA,7,3,1,2,3,4,5,6\n,7,8,9,10,11\n"),
                  "CTETRA: 7: has more than 10 nodes (11)");
-    file_refused(".bdf", deck(GRIDS, "CPENTA,7,3,1,2,3,4,5,6\n"), ".bdf:15: CPENTA: is not read");
+    file_refused(".bdf", deck(GRIDS, "CPENTA,7,3,1,2,3,4,5,6\n"),
+                 ".bdf:15: CPENTA: 7: has 6 nodes: must be of second order, 15 nodes");
+    file_refused(".bdf", deck(GRIDS, "CPYRAM,7,3,1,2,3,4,5\n"), ".bdf:15: CPYRAM: is not read");
     file_refused(".bdf", deck(GRIDS, "=,*(1),==\n"), "=: is not read");
     file_refused(".bdf", deck(GRIDS, "BEGIN SUPER=2\n"), ".bdf:15: BEGIN: is not read");
     file_refused(".bdf", deck(GRIDS, "CQUAD4,7,3,1,2,3,4\n"),
@@ -378,7 +380,8 @@ static void refuses_with_the_line(void **state)
     file_refused(".bdf", deck(GRIDS, "CTETRA,7,3,1,2,3,4,5,6\n,7,8,9,11\n"),
                  ": element 7: node 11: must be one of the file's nodes");
     file_refused(".bdf", deck(GRIDS, "CBAR,7,3,1,2\n"),
-                 ": no solid elements: must have CTETRA of 10 or CHEXA of 20 nodes; cards that are "
+                 ": no solid elements: must have CTETRA of 10, CPENTA of 15 or CHEXA of 20 nodes; "
+                 "cards that are "
                  "not read: CBAR (line 15)");
     deck(GRIDS, TET);
     file_refused(".bdf", file_with(text, "GRID,3", "GRID,2,,1.,0.,.1\nGRID,3"),

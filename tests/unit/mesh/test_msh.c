@@ -233,8 +233,8 @@ static void refuses_with_the_line(void **state)
                  "9223372036854775807");
     file_refused(".msh", file_with(TEXT, "3 9 11 1\n2 1 2 3 4 5 6 7 8 9 10", "3 9 4 1\n2 1 2 3 4"),
                  "4-node tetrahedron: must be of second order, as linear ones are too stiff");
-    file_refused(".msh", file_with(TEXT, "3 9 11 1\n", "3 9 18 1\n"),
-                 "15-node prism: must be 10-node tetrahedra, 20- or 27-node hexahedra");
+    file_refused(".msh", file_with(TEXT, "3 9 11 1\n", "3 9 13 1\n"),
+                 "18-node prism: must be 10-node tetrahedra, 20- or 27-node hexahedra");
     file_refused(".msh", file_with(TEXT, "3 9 11 1\n", "3 9 29 1\n"),
                  ": element 2: type 29: must be one of second order");
     file_refused(

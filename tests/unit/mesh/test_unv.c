@@ -171,10 +171,11 @@ static void raises_and_refuses(void **state)
                                 "164); it is read in 1 m, that of --unit");
         solid_mesh_free(&mesh);
     }
-    file_refused(".unv", LINEAR,
-                 ".unv:15: element 7: linear tetrahedron (111): must be parabolic (118, 116), as");
-    file_refused(".unv", file_with(LINEAR, "7 111 ", "7 112 "),
-                 "kind 112: must be a parabolic tetra");
+    file_refused(
+        ".unv", LINEAR,
+        ".unv:15: element 7: linear tetrahedron (111): must be parabolic (118, 116, 113), as");
+    file_refused(".unv", file_with(LINEAR, "7 111 ", "7 114 "),
+                 "kind 114: must be a parabolic tetra");
     file_refused(".unv", file_with(LINEAR, "7 111 ", "7 91 "),
                  ": has 1 shells or lines and no solid: mesh the volume and export it, too");
     file_refused(".unv", file_with(LINEAR, "1 7 4\n", "1 7 5\n"),

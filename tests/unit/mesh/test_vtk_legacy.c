@@ -209,7 +209,7 @@ static void raises_and_refuses(void **state)
     solid_mesh_free(&mesh);
     file_refused(".vtk", LINEAR,
                  ".vtk: cell 0: tetrahedron of 4 nodes (type 10): must be of second order");
-    file_refused(".vtk", file_with(LINEAR, "1\n10", "1\n13"), ": cell 0: type 13: must be a tetra");
+    file_refused(".vtk", file_with(LINEAR, "1\n10", "1\n14"), ": cell 0: type 14: must be a tetra");
     file_refused(".vtk", file_with(LINEAR, "1\n10", "1\n24"),
                  "tetrahedron: has 4 nodes: must have 10");
     file_refused(".vtk", file_with(LINEAR, "4 0 1 2 3", "4 0 1 2 9"),
