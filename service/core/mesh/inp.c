@@ -17,6 +17,7 @@
 #include "mesh/deck_body.h"
 #include "mesh/deck_support.h"
 #include "mesh/inp_keywords.h"
+#include "mesh/inp_material.h"
 
 /* ---- lines of data: the keyword before them sets their reader ---- */
 
@@ -33,11 +34,11 @@ struct inp {
     int depth;
     bool begun, step;    /* after the first keyword; after *STEP */
     size_t scope, outer; /* scopes: that of the statements; that of the assembly */
-    size_t set, material, instance;
+    size_t set, instance;
+    struct inp_material material; /* under way */
     bool generate;
-    double temperature;          /* of the first row of a table */
-    int row, taken;              /* rows of the table so far; those taken of it */
-    struct deck_element element; /* under way */
+    int row;                                          /* lines of an instance so far */
+    struct deck_element element;                      /* under way */
     size_t nodes[ELEMENT_MOST_NODES], filled, wanted; /* wanted: 0 where a line is an element */
 };
 
@@ -258,95 +259,9 @@ static enum percuss_status inp_read_surface(struct inp *inp, char *line)
     return deck_add_item(&inp->deck, inp->set, &item) ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
-/* ---- properties of a material; a value that is none is refused if the body is of it ---- */
-
-/* Whether to take this row of a table: those at its first temperature, `most` of them; tells of the
- * others. `line`: behind the row's values. */
-static enum percuss_status take_row(struct inp *inp, const char *name, char *line, int most,
-                                    bool *taken)
+static enum percuss_status inp_read_property(struct inp *inp, char *line)
 {
-    char *field = card_field(&line), *end;
-    const char *material = inp->deck.materials[inp->material].name;
-    double temperature = field && *field ? strtod(field, &end) : 0.0;
-    bool told = true;
-    if (inp->row++ == 0)
-        inp->temperature = temperature;
-    *taken = temperature == inp->temperature && inp->taken < most;
-    inp->taken += *taken;
-    if (temperature != inp->temperature)
-        told = deck_material_tell(&inp->deck, inp->material,
-                                  "*MATERIAL, NAME=%s: %s is a table over the temperature: its "
-                                  "rows at %g are taken",
-                                  material, name, inp->temperature);
-    else if (!*taken)
-        told = deck_material_tell(&inp->deck, inp->material,
-                                  "*MATERIAL, NAME=%s: %s: of its rows the first %d are taken",
-                                  material, name, most);
-    return told ? PERCUSS_OK : inp_out_of_memory(inp);
-}
-
-/* Two numbers of a row, or the first one of them alone; keeps the message of what are none. */
-static bool read_numbers(struct inp *inp, const char *name, char **line, int count, double *values)
-{
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    struct fault inner = {""}, *fault = inp->scan->fault;
-    bool good = true;
-    inp->scan->fault = &inner;
-    for (int i = 0; i < count && good; i++)
-        good = card_real(inp->scan, name, card_field(line), &values[i]);
-    inp->scan->fault = fault;
-    if (!good && !material->refused[0])
-        snprintf(material->refused, sizeof material->refused, "%.*s",
-                 (int)sizeof material->refused - 1, inner.text);
-    return good;
-}
-
-/* The `count` values of a row, if it is one of the `most` to take. */
-static bool take_values(struct inp *inp, const char *name, char *line, int count, int most,
-                        double *values, enum percuss_status *status)
-{
-    bool taken = false;
-    *status = PERCUSS_OK;
-    if (read_numbers(inp, name, &line, count, values))
-        *status = take_row(inp, name, line, most, &taken);
-    return taken;
-}
-
-static enum percuss_status inp_read_elastic(struct inp *inp, char *line)
-{
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    enum percuss_status status;
-    double values[2];
-    if (!take_values(inp, "*ELASTIC", line, 2, 1, values, &status))
-        return status;
-    material->young = values[0];
-    material->poisson = values[1];
-    material->elastic = true;
-    return status;
-}
-
-static enum percuss_status inp_read_density(struct inp *inp, char *line)
-{
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    enum percuss_status status;
-    double value;
-    if (!take_values(inp, "*DENSITY", line, 1, 1, &value, &status))
-        return status;
-    material->density = value;
-    material->dense = true;
-    return status;
-}
-
-static enum percuss_status inp_read_plastic(struct inp *inp, char *line)
-{
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    enum percuss_status status;
-    double values[2];
-    if (!take_values(inp, "*PLASTIC", line, 2, 2, values, &status))
-        return status;
-    material->stress[material->stress_count] = values[0];
-    material->strain[material->stress_count++] = values[1];
-    return status;
+    return inp_material_row(&inp->material, inp->scan, line);
 }
 
 /* where an instance stands: its shift, then two points of an axis and degrees */
@@ -553,74 +468,17 @@ static enum percuss_status keyword_material(struct inp *inp, const struct card *
     const char *name = need(inp, card, "NAME");
     if (!name)
         return PERCUSS_BAD_REQUEST;
-    inp->material = deck_add_material(&inp->deck, name, inp_place(inp));
-    return inp->material == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
+    inp->material.at = deck_add_material(&inp->deck, name, inp_place(inp));
+    return inp->material.at == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
-/* Tells of what a table of the *MATERIAL above has besides temperatures. */
-static enum percuss_status tell_table(struct inp *inp, const struct card *card)
-{
-    const char *fields = card_value(card, "DEPENDENCIES");
-    if (!fields || strcmp(fields, "0") == 0 ||
-        deck_material_tell(&inp->deck, inp->material,
-                           "*MATERIAL, NAME=%s: *%.20s is a table over %.20s field variables: its "
-                           "first rows are taken",
-                           inp->deck.materials[inp->material].name, card->name, fields))
-        return PERCUSS_OK;
-    return inp_out_of_memory(inp);
-}
-
-/* *ELASTIC, *DENSITY, *PLASTIC belong to the *MATERIAL above, each once; further *PLASTIC at rates
- * of strain are left out */
 static enum percuss_status keyword_property(struct inp *inp, const struct card *card)
 {
-    static inp_line_reader *const READERS[] = {inp_read_elastic, inp_read_density,
-                                               inp_read_plastic};
-    const char *type = card_value(card, "TYPE");
-    if (inp->material == DECK_NONE)
-        return scan_refuse(inp->scan, "*%.20s: must come after a *MATERIAL", card->name);
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    enum deck_property property = card->name[0] == 'E'   ? DECK_ELASTIC
-                                  : card->name[0] == 'D' ? DECK_DENSITY
-                                                         : DECK_PLASTIC;
-    size_t *stated = &material->stated[property];
-    if (*stated && property == DECK_PLASTIC && card_value(card, "RATE"))
-        return deck_material_tell(&inp->deck, inp->material,
-                                  "*MATERIAL, NAME=%s: *PLASTIC at further rates is left out",
-                                  material->name)
-                   ? PERCUSS_OK
-                   : inp_out_of_memory(inp);
-    if (*stated && !material->refused[0])
-        snprintf(material->refused, sizeof material->refused,
-                 "%.90s:%zu: *%.20s: is in line %zu before: must be in a material once",
-                 inp->scan->file, inp->scan->line, card->name, *stated);
-    else if (property == DECK_ELASTIC && type && strncasecmp(type, "ISO", 3) != 0)
-        snprintf(material->refused, sizeof material->refused,
-                 "%.90s:%zu: *ELASTIC: TYPE=%.40s: must be ISOTROPIC", inp->scan->file,
-                 inp->scan->line, type);
-    else if (!*stated)
-        inp->read = READERS[property];
-    *stated = inp->scan->line;
-    inp->row = inp->taken = 0;
-    return tell_table(inp, card);
-}
-
-/* another law of the *MATERIAL above: left out beside *ELASTIC, refused without it */
-static enum percuss_status keyword_law(struct inp *inp, const struct card *card)
-{
-    if (inp->material == DECK_NONE)
-        return PERCUSS_OK;
-    struct deck_material *material = &inp->deck.materials[inp->material];
-    if (keyword_replaces_elastic(card->name) && !material->refused[0])
-        snprintf(material->refused, sizeof material->refused,
-                 "%.90s:%zu: *%.30s: is not read: must be *ELASTIC", inp->scan->file,
-                 inp->scan->line, card->name);
-    else if (!deck_material_tell(&inp->deck, inp->material,
-                                 "*MATERIAL, NAME=%s: *%.30s is left out: the body is elastic (and "
-                                 "yields by *PLASTIC)",
-                                 material->name, card->name))
-        return inp_out_of_memory(inp);
-    return PERCUSS_OK;
+    bool lines = false;
+    enum percuss_status status = inp_material_property(&inp->material, inp->scan, card, &lines);
+    if (lines)
+        inp->read = inp_read_property;
+    return status;
 }
 
 static enum percuss_status keyword_section(struct inp *inp, const struct card *card)
@@ -774,7 +632,7 @@ static enum percuss_status read_other_card(struct inp *inp, const struct card *c
     case KEYWORD_REFUSED:
         return scan_refuse(inp->scan, "*%.40s: is not read: %s", card->name, meaning);
     case KEYWORD_LAW:
-        return keyword_law(inp, card);
+        return inp_material_law(&inp->material, inp->scan, card);
     case KEYWORD_TOLD:
         told = deck_tell(&inp->deck, "*%.40s (line %zu): %s", card->name, inp->scan->line, meaning);
         break;
@@ -892,12 +750,9 @@ enum percuss_status inp_read(const char *path, double unit, const char *instance
                              struct solid_mesh *mesh, struct fault *fault)
 {
     struct scan scan = {.file = path, .fault = fault};
-    struct inp inp = {.scan = &scan,
-                      .path = path,
-                      .set = DECK_NONE,
-                      .material = DECK_NONE,
-                      .outer = DECK_NONE,
-                      .instance = DECK_NONE};
+    struct inp inp = {
+        .scan = &scan, .path = path, .set = DECK_NONE, .outer = DECK_NONE, .instance = DECK_NONE};
+    inp.material = (struct inp_material){.deck = &inp.deck, .at = DECK_NONE};
     memset(mesh, 0, sizeof *mesh);
     enum percuss_status status = open_scope(&inp, DECK_MODEL, "");
     if (status == PERCUSS_OK)
