@@ -276,6 +276,7 @@ def damaged_cases():
     yield "two bodies", assembly(further="*Instance, name=B-2, part=B\n9\n*End Instance\n"), "", "2 bodies (B-1, B-2)"
     yield "no such file", "*INCLUDE, INPUT=none.inp\n" + PLAIN, "", "a.inp:1: *INCLUDE: INPUT=none.inp: No such file"
     yield "no density", PLAIN.replace("*DENSITY\n7.8E-9\n", ""), "", "NAME=STEEL has no *DENSITY"
+    yield "the density of the fluid in its pores alone", PLAIN.replace("*DENSITY", "*DENSITY, PORE FLUID"), "", "NAME=STEEL has no *DENSITY"
     yield "no such material", PLAIN.replace("NAME=STEEL", "NAME=IRON"), "", "there is no *MATERIAL, NAME=STEEL"
     yield "two materials of one name", PLAIN + MATERIAL.replace("7.8E", "2.7E"), "", "with other values: must be there once"
     yield "two sections of one set", PLAIN + SECTION.replace("STEEL", "AL"), "", "in the solid sections of ALL and ALL"

@@ -37,6 +37,28 @@ static enum percuss_status tell_fields(const struct inp_material *material, cons
                                          present(material)->name, card->name, fields));
 }
 
+/* Why a property's rows are not the solid's; NULL: they are. */
+static const char *other_meaning(const struct card *card)
+{
+    const char *hardening = card_value(card, "HARDENING"), *data = card_value(card, "DATATYPE");
+    if (card_value(card, "POREFLUID"))
+        return "*DENSITY is of the fluid in the pores: left out";
+    if ((hardening &&
+         (strncasecmp(hardening, "JOHNSON", 7) == 0 || strncasecmp(hardening, "USER", 4) == 0)) ||
+        (data && strncasecmp(data, "PARAMETERS", 10) == 0))
+        return "*PLASTIC is no table of stresses: left out, the body does not yield by it";
+    return NULL;
+}
+
+static bool tell_plastic(const struct inp_material *material, const struct card *card)
+{
+    const char *scale = card_value(card, "SCALESTRESS");
+    return !scale || deck_material_tell(material->deck, material->at,
+                                        "*MATERIAL, NAME=%s: *PLASTIC: SCALESTRESS=%.20s is left "
+                                        "out: its stresses are taken as they stand there",
+                                        present(material)->name, scale);
+}
+
 enum percuss_status inp_material_property(struct inp_material *material, const struct scan *scan,
                                           const struct card *card, bool *rows)
 {
@@ -45,6 +67,10 @@ enum percuss_status inp_material_property(struct inp_material *material, const s
     if (material->at == DECK_NONE)
         return scan_refuse(scan, "*%.20s: must come after a *MATERIAL", card->name);
     struct deck_material *to = present(material);
+    const char *other = other_meaning(card);
+    if (other)
+        return told(scan, deck_material_tell(material->deck, material->at, "*MATERIAL, NAME=%s: %s",
+                                             to->name, other));
     material->property = card->name[0] == 'E'   ? DECK_ELASTIC
                          : card->name[0] == 'D' ? DECK_DENSITY
                                                 : DECK_PLASTIC;
@@ -66,7 +92,7 @@ enum percuss_status inp_material_property(struct inp_material *material, const s
         *rows = !*stated;
     *stated = scan->line;
     material->row = material->taken = 0;
-    return tell_fields(material, scan, card);
+    return tell_plastic(material, card) ? tell_fields(material, scan, card) : told(scan, false);
 }
 
 enum percuss_status inp_material_law(struct inp_material *material, const struct scan *scan,

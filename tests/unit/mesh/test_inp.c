@@ -417,6 +417,26 @@ static void tells_what_is_left_out(void **state)
     assert_non_null(strstr(mesh.remarks[0], "*ELASTIC is a table over the temperature: its rows at "
                                             "20 are taken"));
     solid_mesh_free(&mesh);
+    /* properties that are not the solid's leave its own alone */
+    static const struct {
+        const char *from, *to, *told;
+    } OTHERS[] = {
+        {"*DENSITY", "*DENSITY, PORE FLUID\n1e-9\n*DENSITY",
+         "is of the fluid in the pores: left out"},
+        {"*ELASTIC", "*PLASTIC, HARDENING=JOHNSON COOK\n90, 1, 2, 3, 4, 5\n*ELASTIC",
+         "*PLASTIC is no table of stresses: left out"},
+        {"*ELASTIC", "*PLASTIC, HARDENING=COMBINED, DATA TYPE=PARAMETERS\n90, 1, 2\n*ELASTIC",
+         "*PLASTIC is no table of stresses: left out"},
+        {"*PLASTIC", "*PLASTIC, SCALE STRESS=2.", "*PLASTIC: SCALESTRESS=2. is left out"}};
+    for (size_t i = 0; i < COUNT(OTHERS); i++) {
+        assert_int_equal(
+            file_read(".inp", file_with(BRICK, OTHERS[i].from, OTHERS[i].to), 0.001, &mesh),
+            PERCUSS_OK);
+        assert_non_null(strstr(mesh.remarks[0], OTHERS[i].told));
+        near_relative(mesh.part[0].material.density, 7800.0, 1e-14);
+        near_relative(mesh.part[0].material.yield, 500e6, 1e-14);
+        solid_mesh_free(&mesh);
+    }
     /* what a deck does not state is NAN, and the card has its name */
     assert_int_equal(file_read(".inp", file_with(BRICK, "*DENSITY\n7.8e-9\n", ""), 0.001, &mesh),
                      PERCUSS_OK);
