@@ -10,7 +10,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct solid_mesh mesh = {0};
     struct fault fault = {""};
-    enum percuss_status status = inp_read(fuzz_file(0, data, size), 1e-3, NULL, &mesh, &fault);
+    enum percuss_status status =
+        inp_read(fuzz_file(0, data, size), 1e-3, NULL, size % 2, &mesh, &fault);
     if (status)
         fuzz_refused(status, fault.text);
     else

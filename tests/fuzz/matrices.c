@@ -22,7 +22,7 @@ static const struct solid_mesh *tetrahedron(void)
     struct fault fault = {""};
     if (!mesh.node_count)
         FUZZ_REQUIRE(!inp_read(fuzz_file(3, (const uint8_t *)DECK, sizeof DECK - 1), 1.0, NULL,
-                               &mesh, &fault),
+                               false, &mesh, &fault),
                      "%s", fault.text);
     return &mesh;
 }

@@ -193,6 +193,16 @@ def assembly(where="", further="", own=HIGH, other=LOW):
             f"*Nset, nset=Set-1, instance=B-1\n{numbers(other)}*End Assembly\n{MATERIAL}")
 
 
+def linear(kind, nodes):
+    """The corners alone: its mid nodes are in no element."""
+    return nodes[:len(CORNERS[kind])]
+
+
+def linear_collapsed(kind, nodes):
+    n = nodes
+    return [n[0], n[1], n[2], n[2], *([n[3], n[4], n[5], n[5]] if kind == "C3D15" else [n[3]] * 4)]
+
+
 def of(kind, change=None, name=None):
     body = Body([(kind, c, STEEL) for x in (0.0, 10.0) for c in cut(kind, x)])
     lines = body.lines(change) if change else body.lines()
@@ -250,6 +260,16 @@ def right_cases():
     yield "wedges", {"a.inp": wedge_deck}, "", wedges.solve(), None
     yield "bricks that are wedges", {"a.inp": of("C3D15", collapsed, "C3D20R")[1]}, "", wedges.solve(), None
     yield "bricks that are tetrahedra", {"a.inp": of("C3D10", collapsed, "C3D20")[1]}, "", tets.solve(), None
+    raised = "linear elements were raised"
+    corners = lambda kind, name: {"a.inp": of(kind, linear, name)[1]}
+    foot = "*NSET, NSET=FOOT\n" + numbers(n for n in LOW if n in [m for e in BAR.elements for m in e[1][:8]])
+    bricks = MESH.replace(BAR.lines(), BAR.lines(linear)).replace("C3D20", "C3D8I") + MATERIAL + SECTION
+    yield "linear bricks", {"a.inp": bricks + foot}, "--raise --fixed FOOT", low, raised
+    yield "linear bricks, held by a surface", {"a.inp": bricks + "*SURFACE, NAME=F\n1, S6\n"}, "--raise --fixed F", low, raised
+    yield "linear tetrahedra", corners("C3D10", "C3D4"), "--raise", tets.solve(), raised
+    yield "linear wedges", corners("C3D15", "C3D6"), "--raise", wedges.solve(), raised
+    yield "linear bricks that are wedges", {"a.inp": of("C3D15", linear_collapsed, "C3D8R")[1]}, "--raise", wedges.solve(), raised
+    yield "linear bricks that are tetrahedra", {"a.inp": of("C3D10", linear_collapsed, "C3D8")[1]}, "--raise", tets.solve(), raised
     yield "an instance in its own frame", part(), "", free, None
     yield "an instance moved and turned", part(place), "", turned(), None
     yield "one of two instances", part(place, second), "--instance B-1", turned(), None
@@ -282,6 +302,8 @@ def damaged_cases():
     yield "two sections of one set", PLAIN + SECTION.replace("STEEL", "AL"), "", "in the solid sections of ALL and ALL"
     yield "no such set", PLAIN.replace("ELSET=ALL, M", "ELSET=NONE, M"), "", "NONE: must be the name of a set of elements"
     yield "linear elements", PLAIN.replace("C3D20", "C3D8"), "", "must be of second order"
+    yield "linear bricks that are pyramids", PLAIN.replace(BAR.lines(), BAR.lines(lambda kind, n: n[:4] + [n[4]] * 4)).replace(
+        "C3D20", "C3D8"), "--raise", "neither a wedge nor a tetrahedron"
     yield "two places of a node", MESH + "*NODE\n1, 0, 0, 5\n" + MATERIAL + SECTION, "", "node 1: is there twice, at"
     yield "two elements of a number", PLAIN + MESH[MESH.index("*ELEMENT"):], "", "element 1: is there twice"
     yield "a node that is not there", PLAIN.replace(" " + last, " 999\n", 1), "", "node 999: must be one of the file's nodes"

@@ -237,33 +237,6 @@ static int compare_edges(const void *left, const void *right)
     return a->at < b->at ? -1 : a->at > b->at;
 }
 
-/* The corners whose middle a node is, by their natural coordinates; false: it is that of a face or
- * of the element. */
-static bool find_ends(enum element_type type, size_t node, size_t ends[2])
-{
-    double middle[3], corners[8][3];
-    size_t count = element_corner_count(type), zeros = 0;
-    element_node(type, node, middle);
-    for (size_t i = 0; i < count; i++)
-        element_node(type, i, corners[i]);
-    for (int k = 0; k < 3; k++)
-        zeros += middle[k] == 0.0;
-    if (type == ELEMENT_HEX27 && zeros > 1)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = i + 1; j < count; j++) {
-            bool between = true;
-            for (int k = 0; k < 3; k++)
-                between = between && 0.5 * (corners[i][k] + corners[j][k]) == middle[k];
-            if (between) {
-                ends[0] = i;
-                ends[1] = j;
-                return true;
-            }
-        }
-    return false;
-}
-
 /* all edges, sorted */
 static bool collect_edges(const struct builder *builder, struct edges *edges)
 {
@@ -272,7 +245,7 @@ static bool collect_edges(const struct builder *builder, struct edges *edges)
         const size_t *nodes = builder->connectivity.values + element->first;
         size_t corners = element_corner_count(element->type), ends[2];
         for (size_t i = corners; i < element_node_count(element->type); i++) {
-            if (!find_ends(element->type, i, ends))
+            if (!element_edge(element->type, i, ends))
                 continue;
             if (!GROW(edges->list, edges->count, edges->room))
                 return false;

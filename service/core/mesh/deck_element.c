@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "mesh/builder.h"
 #include "mesh/element.h"
 
 /* the deck's node of each node in Gmsh's order: Abaqus Elements Reference, 28.1.4 */
@@ -27,22 +28,30 @@ static const unsigned char HEX_FACES[6][8] = {
 
 size_t deck_element_nodes(enum deck_element_kind kind)
 {
-    static const size_t COUNTS[] = {10, 15, 20, 0};
+    static const size_t COUNTS[] = {10, 15, 20, 4, 6, 8, 0};
     return COUNTS[kind];
+}
+
+/* the kind of second order, of a solid */
+static enum deck_element_kind raised(enum deck_element_kind kind)
+{
+    return kind < DECK_C3D4 ? kind : kind - DECK_C3D4 + DECK_C3D10;
 }
 
 size_t deck_element_face(enum deck_element_kind kind, int face, const unsigned char **nodes)
 {
-    static const int MOST[] = {4, 5, 6, 0};
-    if (face < 1 || face > MOST[kind])
+    static const int MOST[] = {4, 5, 6};
+    enum deck_element_kind whole = raised(kind);
+    if (kind == DECK_OTHER || face < 1 || face > MOST[whole])
         return 0;
-    if (kind == DECK_C3D10)
+    if (whole == DECK_C3D10)
         *nodes = TET_FACES[face - 1];
-    else if (kind == DECK_C3D15)
+    else if (whole == DECK_C3D15)
         *nodes = WEDGE_FACES[face - 1];
     else
         *nodes = HEX_FACES[face - 1];
-    return kind == DECK_C3D10 || (kind == DECK_C3D15 && face < 3) ? 6 : 8;
+    size_t corners = whole == DECK_C3D10 || (whole == DECK_C3D15 && face < 3) ? 3 : 4;
+    return whole == kind ? 2 * corners : corners;
 }
 
 /* ---- bricks with a face that is a line or a point ---- */
@@ -132,22 +141,57 @@ static bool make_collapsed(const size_t *brick, enum element_type *type, size_t 
     return false;
 }
 
+/* ---- linear elements ---- */
+
+/* Stand-ins for mid nodes that are to be made, above all labels: edges with the same ends have the
+ * same one, and an edge that is a point has its corner. */
+static const size_t FIRST_STAND_IN = BUILDER_MIDDLE - ELEMENT_MOST_NODES;
+
+static void add_stand_ins(enum element_type type, size_t *made)
+{
+    size_t ends[2], others[2];
+    for (size_t i = element_corner_count(type); i < element_node_count(type); i++) {
+        element_edge(type, i, ends);
+        size_t a = made[ends[0]], b = made[ends[1]];
+        made[i] = a == b ? a : FIRST_STAND_IN + i;
+        for (size_t j = element_corner_count(type); j < i && a != b; j++) {
+            element_edge(type, j, others);
+            size_t c = made[others[0]], d = made[others[1]];
+            if ((a == c && b == d) || (a == d && b == c))
+                made[i] = made[j];
+        }
+    }
+}
+
+static void drop_stand_ins(enum element_type type, size_t *made)
+{
+    for (size_t i = 0; i < element_node_count(type); i++)
+        made[i] = made[i] < FIRST_STAND_IN ? made[i] : BUILDER_MIDDLE;
+}
+
+/* ---- all of them ---- */
+
 const char *deck_element_make(enum deck_element_kind kind, const size_t *nodes,
                               enum element_type *type, size_t made[ELEMENT_MOST_NODES],
                               size_t *node)
 {
     static const unsigned char *const ORDERS[] = {TET_ORDER, WEDGE_ORDER, HEX_ORDER};
     static const enum element_type TYPES[] = {ELEMENT_TET10, ELEMENT_WEDGE15, ELEMENT_HEX20};
-    size_t count = deck_element_nodes(kind), brick[20];
-    *type = TYPES[kind];
-    pick(nodes, ORDERS[kind], count, made);
-    if (all_apart(made, count, node))
-        return NULL;
-    if (kind != DECK_C3D20)
-        return "is in it more than once: must be nodes of their own";
-    memcpy(brick, made, sizeof brick);
-    return make_collapsed(brick, type, made)
-               ? NULL
-               : "is in it more than once, and it is neither a wedge nor a tetrahedron (with the "
-                 "mid nodes of the edges that vanish): must be C3D10, C3D15 or a whole C3D20";
+    enum deck_element_kind whole = raised(kind);
+    size_t brick[20];
+    *type = TYPES[whole];
+    /* corners come first, in the same order */
+    pick(nodes, ORDERS[whole], deck_element_nodes(kind), made);
+    if (whole != kind)
+        add_stand_ins(*type, made);
+    if (!all_apart(made, element_node_count(*type), node)) {
+        if (whole != DECK_C3D20)
+            return "is in it more than once: must be nodes of their own";
+        memcpy(brick, made, sizeof brick);
+        if (!make_collapsed(brick, type, made))
+            return "is in it more than once, and it is neither a wedge nor a tetrahedron (with the "
+                   "mid nodes of the edges that vanish): must be C3D10, C3D15 or a whole C3D20";
+    }
+    drop_stand_ins(*type, made);
+    return NULL;
 }

@@ -48,6 +48,33 @@ void element_node(enum element_type type, size_t node, double at[3])
     }
 }
 
+bool element_edge(enum element_type type, size_t node, size_t ends[2])
+{
+    double middle[3], corners[8][3];
+    size_t count = element_corner_count(type), zeros = 0;
+    if (node < count)
+        return false;
+    element_node(type, node, middle);
+    for (size_t i = 0; i < count; i++)
+        element_node(type, i, corners[i]);
+    for (int k = 0; k < 3; k++)
+        zeros += middle[k] == 0.0;
+    if (type == ELEMENT_HEX27 && zeros > 1)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; j < count; j++) {
+            bool between = true;
+            for (int k = 0; k < 3; k++)
+                between = between && 0.5 * (corners[i][k] + corners[j][k]) == middle[k];
+            if (between) {
+                ends[0] = i;
+                ends[1] = j;
+                return true;
+            }
+        }
+    return false;
+}
+
 /* N = L(2L - 1) at corners, 4 L_i L_j on edges, in volume coordinates L. */
 static void tet_shapes(const double at[3], double *shape, double (*gradient)[3])
 {

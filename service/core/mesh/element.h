@@ -52,6 +52,10 @@ static inline double element_natural_volume(enum element_type type)
 /* Natural coordinates of a node. */
 void element_node(enum element_type type, size_t node, double at[3]);
 
+/* The corners whose middle a node is; false: it is a corner, or that of a face or of the element.
+ */
+bool element_edge(enum element_type type, size_t node, size_t ends[2]);
+
 /* Shape functions and their natural gradients at a point. */
 void element_shapes(enum element_type type, const double at[3], double *shape,
                     double (*gradient)[3]);

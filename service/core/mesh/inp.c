@@ -32,6 +32,7 @@ struct inp {
     const char *path;      /* of the deck itself */
     size_t file;           /* deck.files: that of `scan` */
     int depth;
+    bool raise;          /* linear elements are taken */
     bool begun, step;    /* after the first keyword; after *STEP */
     size_t scope, outer; /* scopes: that of the statements; that of the assembly */
     size_t set, instance;
@@ -363,7 +364,7 @@ static enum percuss_status keyword_node(struct inp *inp, const struct card *card
 /* takes or refuses a type of solid; other elements only name nodes */
 static enum percuss_status inp_check_type(struct inp *inp, const char *type)
 {
-    static const char *const LINEAR[] = {"C3D4", "C3D5", "C3D6", "C3D8"};
+    static const char *const SOLIDS[] = {"C3D10", "C3D15", "C3D20", "C3D4", "C3D6", "C3D8"};
     inp->element.kind = DECK_OTHER;
     if (strncasecmp(type, "C3D", 3) != 0)
         return keyword_is_surface(type) || deck_tell(&inp->deck, "*ELEMENT, TYPE=%.20s: %s", type,
@@ -371,19 +372,18 @@ static enum percuss_status inp_check_type(struct inp *inp, const char *type)
                    ? PERCUSS_OK
                    : inp_out_of_memory(inp);
     for (int kind = 0; kind < DECK_OTHER; kind++) {
-        static const char *const TAKEN[] = {"C3D10", "C3D15", "C3D20"};
-        if (strncasecmp(type, TAKEN[kind], 5) == 0 && !isdigit((unsigned char)type[5])) {
-            inp->element.kind = (enum deck_element_kind)kind;
-            return PERCUSS_OK;
-        }
-    }
-    for (size_t i = 0; i < sizeof LINEAR / sizeof *LINEAR; i++)
-        if (strncasecmp(type, LINEAR[i], 4) == 0)
+        size_t length = strlen(SOLIDS[kind]);
+        if (strncasecmp(type, SOLIDS[kind], length) != 0 || isdigit((unsigned char)type[length]))
+            continue;
+        if (kind >= DECK_C3D4 && !inp->raise)
             return scan_refuse(inp->scan,
                                "*ELEMENT: TYPE=%.20s: must be of second order (C3D10, C3D15, "
                                "C3D20), as linear ones are too stiff (first frequency 4 to 15 %% "
-                               "high)",
+                               "high): mesh with mid-side nodes, or raise them by --raise",
                                type);
+        inp->element.kind = (enum deck_element_kind)kind;
+        return PERCUSS_OK;
+    }
     return scan_refuse(
         inp->scan, "*ELEMENT: TYPE=%.20s: must be C3D10, C3D15 or C3D20, or a kind of them", type);
 }
@@ -746,12 +746,16 @@ static enum percuss_status read_deck(struct inp *inp, const char *path)
     return status;
 }
 
-enum percuss_status inp_read(const char *path, double unit, const char *instance,
+enum percuss_status inp_read(const char *path, double unit, const char *instance, bool raise,
                              struct solid_mesh *mesh, struct fault *fault)
 {
     struct scan scan = {.file = path, .fault = fault};
-    struct inp inp = {
-        .scan = &scan, .path = path, .set = DECK_NONE, .outer = DECK_NONE, .instance = DECK_NONE};
+    struct inp inp = {.scan = &scan,
+                      .path = path,
+                      .raise = raise,
+                      .set = DECK_NONE,
+                      .outer = DECK_NONE,
+                      .instance = DECK_NONE};
     inp.material = (struct inp_material){.deck = &inp.deck, .at = DECK_NONE};
     memset(mesh, 0, sizeof *mesh);
     enum percuss_status status = open_scope(&inp, DECK_MODEL, "");

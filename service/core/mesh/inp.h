@@ -13,8 +13,8 @@ enum { INP_MOST_DEPTH = 8, INP_PATH_SIZE = 1024 };
 
 /* Element sets with a *SOLID SECTION are the parts, else the ELSETs of *ELEMENT; *NSET, *SURFACE
  * and sets of shells are sets of nodes. `instance`: which one of an assembly; NULL: the only one.
- */
-enum percuss_status inp_read(const char *path, double unit, const char *instance,
+ * `raise`: linear elements are taken, too, as builder.h makes those of second order of them. */
+enum percuss_status inp_read(const char *path, double unit, const char *instance, bool raise,
                              struct solid_mesh *mesh, struct fault *fault);
 
 /* The path of a file that `file`, a deck or one that the deck includes, names in *INCLUDE: the

@@ -286,7 +286,7 @@ static enum percuss_status read_format(const char *path, enum mesh_format format
 {
     switch (format) {
     case MESH_FORMAT_INP:
-        return inp_read(path, options->unit, options->instance, mesh, fault);
+        return inp_read(path, options->unit, options->instance, options->raise, mesh, fault);
     case MESH_FORMAT_BDF:
         return bdf_read(path, options->unit, options->raise, mesh, fault);
     case MESH_FORMAT_VTK:
