@@ -113,7 +113,8 @@ class Body:
     def plane(self, axis, value):
         return [n for p, n in self.number.items() if abs(p[axis] - value) < 1e-9]
 
-    def solve(self, held=()):
+    def solve(self, held=(), masses=()):
+        """Held nodes; masses on nodes as (node, kg)."""
         n = len(self.points)
         stiffness, mass = np.zeros((3 * n, 3 * n)), np.zeros((n, n))
         for kind, nodes, material in self.elements:
@@ -122,6 +123,8 @@ class Body:
             rows = (3 * at[:, None] + np.arange(3)).ravel()
             stiffness[np.ix_(rows, rows)] += k
             mass[np.ix_(at, at)] += m
+        for node, kilograms in masses:
+            mass[node - 1, node - 1] += kilograms
         total = mass.sum()
         centre = mass.sum(axis=1) @ self.points / total
         arm = self.points - centre
@@ -209,9 +212,9 @@ def of(kind, change=None, name=None):
     return body, f"*NODE\n{body.nodes()}*ELEMENT, TYPE={name or kind}, ELSET=ALL\n{lines}{MATERIAL}{SECTION}"
 
 
-def turned():
+def turned(right=None):
     """The bar moved by (5, 0, 0) and turned by 90 degrees about z."""
-    right = BAR.solve()
+    right = right or BAR.solve()
     turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     return dict(right, centre=turn @ (right["centre"] + [5e-3, 0, 0]), inertia=turn @ right["inertia"] @ turn.T)
 
@@ -286,7 +289,22 @@ def right_cases():
     yield "a support", {"a.inp": PLAIN + hold + "*STEP\n*STATIC\n*BOUNDARY\nFOOT, 1, 3\n*END STEP\n"}, "", free, "--fixed FOOT holds it"
     yield "a support of symmetry", {"a.inp": PLAIN + hold + "*BOUNDARY\nFOOT, XSYMM\n"}, "", free, "in direction 1 alone it cannot be"
     yield "a set with nodes that are not there", {"a.inp": PLAIN + hold + "7000, 7001\n"}, "--fixed FOOT", low, "2 of the nodes"
-    yield "a mass", {"a.inp": PLAIN + "*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n*MASS, ELSET=M\n1e-3\n"}, "", free, "is lighter by them"
+    # tonnes; the bar has 0.0156 kg
+    point, told = "*ELEMENT, TYPE=MASS, ELSET=M\n9, 7\n", "masses on nodes (1, of 0.01 kg in all) are part of the body"
+    massive, mass = BAR.solve(masses=[(7, 0.01)]), "*MASS, ELSET=M\n1e-5\n"
+    yield "a mass", {"a.inp": PLAIN + point + mass}, "", massive, told
+    yield "a mass before its element, named by another set", {"a.inp": mass.replace("=M", "=N") + PLAIN + point.replace(
+        ", ELSET=M", "") + "*ELSET, ELSET=M\n9\n*ELSET, ELSET=N\nM\n"}, "", massive, told
+    yield "masses, held", {"a.inp": PLAIN + hold + point + "10, 7\n11, 20\n" + mass}, "--fixed FOOT", BAR.solve(
+        LOW, [(7, 0.02), (20, 0.01)]), "masses on nodes (2, of 0.03 kg in all)"
+    yield "a mass on a node of nothing", {"a.inp": PLAIN + "*NODE\n999, 0, 0, 99\n" + point.replace(", 7", ", 999") + mass}, "", free, (
+        "(node 999 first) are left out: the body here is lighter by 0.01 kg")
+    yield "a mass of a part", {"a.inp": assembly(place).replace("*End Part", point + mass + "*End Part")}, "", turned(massive), told
+    yield "a mass of the assembly", part(place, point.replace(" 7", " B-1.7") + mass), "", turned(massive), told
+    yield "a mass of another instance", part(place, second + point.replace(" 7", " B-2.7") + mass), "--instance B-1", turned(), None
+    yield "a mass of an assembly's own node", part(place, "*Node\n7, 0, 0, 99\n" + point + mass), "", turned(), "is lighter by it"
+    yield "a mass without an element", {"a.inp": PLAIN + mass}, "", free, "has no element TYPE=MASS: left out"
+    yield "an element without its mass", {"a.inp": PLAIN + point}, "", free, "TYPE=MASS without a *MASS"
 
 
 def damaged_cases():
@@ -308,6 +326,8 @@ def damaged_cases():
     yield "two elements of a number", PLAIN + MESH[MESH.index("*ELEMENT"):], "", "element 1: is there twice"
     yield "a node that is not there", PLAIN.replace(" " + last, " 999\n", 1), "", "node 999: must be one of the file's nodes"
     yield "a node too few", PLAIN.replace(", " + last, "\n", 1), "", "has 19 nodes: must have more"
+    yield "a mass below zero", PLAIN + "*MASS, ELSET=M\n-1.\n", "", "*MASS: -1: must be a finite number >= 0"
+    yield "a mass on two nodes", PLAIN + "*ELEMENT, TYPE=MASS, ELSET=M\n9, 1, 2\n", "", "TYPE=MASS: must have 1 node"
     yield "nodes to be made", PLAIN + "*NGEN\n1, 9\n", "", "*NGEN: is not read"
     yield "another law", PLAIN.replace("*ELASTIC", "*HYPERELASTIC"), "", "*HYPERELASTIC: is not read: must be *ELASTIC"
     yield "a density in kg/m^3", PLAIN.replace("7.8E-9", "7800"), "", "is the unit of length right?"
@@ -347,7 +367,34 @@ def judge(name, wrong):
         failed.append(name)
 
 
-count = 0
+def bar_with_end_mass():
+    """A held bar of four cubes without lateral contraction, with its own mass at the end: kL tan kL = 1, k = omega sqrt(rho/E).
+    A triangle's uniform load is a third of it at each mid node, so that the end mass moves as one; elements of second order
+    have k too high by about (k h)^4/1440 = 1.5e-6."""
+    young, density, length = 210e9, 7800.0, 0.04
+    body = Body([("C3D10", c, (young, 0.0, density)) for x in (0.0, 10.0, 20.0, 30.0) for c in cut("C3D10", x)])
+    share, end = {}, set(body.plane(0, 40.0))
+    for _, nodes, _ in body.elements:
+        middles = [n for n, (a, b) in zip(nodes[4:], EDGES["C3D10"]) if nodes[a] in end and nodes[b] in end]
+        for n in middles if len(middles) == 3 else []:
+            share[n] = share.get(n, 0.0) + density * length * 1e-4 / 6
+    deck = f"*NODE\n{body.nodes()}*ELEMENT, TYPE=C3D10, ELSET=ALL\n{body.lines()}{MATERIAL}{SECTION}".replace(", 0.3", ", 0.")
+    deck += "*NSET, NSET=FOOT\n" + numbers(body.plane(0, 0.0))
+    for n, kilograms in share.items():
+        deck += f"*ELEMENT, TYPE=MASS, ELSET=M{n}\n{1000 + n}, {n}\n*MASS, ELSET=M{n}\n{kilograms * 1e-3:.16g}\n"
+    done = run({"a.inp": deck}, "--fixed FOOT -n 12")
+    if done.returncode:
+        return [done.stderr.strip()]
+    got = json.loads(done.stdout)
+    right = 0.8603335890193798 / length * np.sqrt(young / density) / (2 * np.pi)
+    apart = np.abs(np.array(got["frequencies"]) / right - 1)
+    wrong = [] if apart.min() < 3e-6 else [f"no frequency of {got['frequencies']} is {right} ({apart.min():.1e})"]
+    masses = (got["mass_on_nodes"], got["mass"] - got["mass_on_nodes"])
+    return wrong + ([] if np.allclose(masses, density * length * 1e-4, rtol=1e-12, atol=0) else [f"masses {masses}"])
+
+
+count = 1
+judge("a bar with an end mass", bar_with_end_mass())
 for name, files, arguments, right, warning in right_cases():
     done = run(files, arguments)
     wrong = [done.stderr.strip()] if done.returncode else list(differences(done.stdout, right))

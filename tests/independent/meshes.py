@@ -164,10 +164,25 @@ def assemble(block):
     return K, M, mass, centre, np.trace(second) * np.eye(3) - second
 
 
+# a mass of 0.02 kg on a node; the block has 7.5e-3
+MASSIVE = 5
+POINT = 0.02
+
+
+def add_mass(block, M, mass, centre, inertia):
+    place = 1e-3 * block.points[MASSIVE]
+    M[3 * MASSIVE:3 * MASSIVE + 3, 3 * MASSIVE:3 * MASSIVE + 3] += POINT * np.eye(3)
+    arm = place - centre
+    inertia = inertia + mass * POINT / (mass + POINT) * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return mass + POINT, (mass * centre + POINT * place) / (mass + POINT), inertia
+
+
 class Reference:
-    def __init__(self, kind):
+    def __init__(self, kind, massive=False):
         self.block = Block(kind)
         K, M, self.mass, self.centre, self.inertia = assemble(self.block)
+        if massive:
+            self.mass, self.centre, self.inertia = add_mass(self.block, M, self.mass, self.centre, self.inertia)
         self.free = np.sqrt(eigh(K, M, eigvals_only=True)[6:6 + MODES]) / 2 / math.pi
         held = {3 * n + k for n in self.block.foot for k in range(3)}
         rest = [i for i in range(len(K)) if i not in held]
@@ -412,7 +427,7 @@ BEFORE_GROUPS = (b"LOOKUP_TABLE t 1\n\x01\x0a\x03\x04\nFIELD f 1\nnames 1 2 stri
                  b"METADATA\nCOMPONENT_NAMES\nX%20Y\n\n")
 
 
-def right_files(tet, hexa, full, wedge):
+def right_files(tet, hexa, full, wedge, massive):
     """(name, contents, reference, arguments, set that is held)"""
     given = ["--young", "210GPa", "--poisson", ".3", "--density", "7800"]
     t, h, f, w = tet.block, hexa.block, full.block, wedge.block
@@ -452,6 +467,10 @@ def right_files(tet, hexa, full, wedge):
     yield "linear.msh", msh41(t, corners=4), tet, [*given, "--raise"], foot
     yield "tets.inp", inp(t), tet, [], foot
     yield "bricks.msh", inp(h), hexa, [], foot  # a deck, whatever its name
+    point = f"CONM2,900,{MASSIVE + 1},,1.-5\nCONM2,901,{MASSIVE + 1},0,3.-5,0.,0.\n"
+    yield "masses.bdf", bdf(h, "free", head="PARAM,WTMASS,.5\n" + point).replace("7.8-9", "1.56-8"), massive, [], spc
+    offset = "CONM2,902,1,,9.,1.\nCONM2,903,1,-1,9.,,,,,+\n+,9.\nGRID,9999,,0.,0.,9.\nCONM2,904,9999,,9.\n"
+    yield "apart.bdf", bdf(h, "free", head=offset), hexa, [], spc
     yield "wedges.bdf", bdf(w, "blank"), wedge, [], spc
     yield "linearwedges.bdf", bdf(w, "plus", corners=6), wedge, ["--raise"], None
     yield "wedges.vtk", vtk(w, 2.0, False), wedge, given, seven
@@ -559,9 +578,9 @@ def prisms_of_gmsh(program, folder):
 def main():
     program = sys.argv[1]
     keep = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-    references = [Reference(kind) for kind in ("tet10", "hex20", "hex27", "wedge15")]
+    references = [Reference(kind) for kind in ("tet10", "hex20", "hex27", "wedge15")] + [Reference("hex20", True)]
     # the block in closed form: base times height, sheared
-    for reference in references:
+    for reference in references[:-1]:
         assert abs(reference.mass / (DENSITY * 20 * 6 * 8e-9) - 1) < 1e-12
     count = failed = 0
     with tempfile.TemporaryDirectory() as temporary:

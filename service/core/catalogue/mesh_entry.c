@@ -499,6 +499,18 @@ static enum percuss_status read_sites(struct reader *reader, const yaml_node_t *
     return status;
 }
 
+/* kg, of the body's volume */
+static double material_mass(const struct mesh_body *mesh)
+{
+    return mesh->volume * mesh->materials[0].density;
+}
+
+/* Of a body of one material: whether it has more mass than that, but for rounding. */
+static bool has_masses(const struct mesh_body *mesh)
+{
+    return mesh->mass > (1.0 + 1e-9) * material_mass(mesh);
+}
+
 enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
                                     struct mesh_files *files, struct body_set *set,
                                     struct body *body)
@@ -534,6 +546,12 @@ enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
         return reader_refuse(reader, material,
                              "material: must be absent: the file holds %zu materials of its own",
                              body->mesh->material_count);
+    if (material && !is_mesh && has_masses(body->mesh))
+        return reader_refuse(
+            reader, material,
+            "material: must be absent: the file has masses on nodes, %g kg of %g kg, "
+            "which no material scales",
+            body->mesh->mass - material_mass(body->mesh), body->mesh->mass);
     if (!material)
         body->material = body->mesh->materials[0];
     return sites ? read_sites(reader, sites, body) : PERCUSS_OK;

@@ -426,6 +426,38 @@ static enum percuss_status read_rbe2(struct bdf *bdf, const struct bdf_card *car
     return status == PERCUSS_OK ? count_other(bdf, card) : status;
 }
 
+/* CONM2: label, node, the system of its offset, mass, offset; its inertia. A node of a solid does
+ * not turn: an offset would be of no use. */
+static enum percuss_status read_mass(struct bdf *bdf, const struct bdf_card *card)
+{
+    size_t node;
+    double mass = 0.0, offset[3] = {0.0, 0.0, 0.0}, inertia = 0.0;
+    if (!bdf_label(card, 3, &node) || !bdf_real(card, 5, &mass))
+        return PERCUSS_BAD_REQUEST;
+    for (size_t k = 0; k < 3; k++)
+        if (!bdf_real(card, 6 + k, &offset[k]))
+            return PERCUSS_BAD_REQUEST;
+    for (size_t k = 0; k < 6 && inertia == 0.0; k++)
+        if (!bdf_real(card, 10 + k, &inertia))
+            return PERCUSS_BAD_REQUEST;
+    if (!(mass >= 0.0 && isfinite(mass)))
+        return bdf_refuse(card, "%s: %g: must be a finite mass >= 0", bdf_field(card, 2), mass);
+    if (norm3(offset) != 0.0 || bdf_field(card, 4)[0] == '-')
+        return builder_remark(&bdf->builder,
+                              "CONM2 %s: its mass has an offset from its node: left out: the body "
+                              "here is lighter by it",
+                              bdf_field(card, 2))
+                   ? PERCUSS_OK
+                   : bdf_out_of_memory(bdf);
+    if (inertia != 0.0 &&
+        !builder_remark(&bdf->builder,
+                        "CONM2 %s: its inertia is left out: masses on nodes have none here",
+                        bdf_field(card, 2)))
+        return bdf_out_of_memory(bdf);
+    return mass == 0.0 || builder_add_mass(&bdf->builder, node, mass) ? PERCUSS_OK
+                                                                      : bdf_out_of_memory(bdf);
+}
+
 static enum percuss_status read_property(struct bdf *bdf, const struct bdf_card *card)
 {
     return bdf_property_read(&bdf->materials, card, bdf->path);
@@ -476,6 +508,7 @@ static const struct {
              {"SPC", read_spc},
              {"SPCADD", read_spcadd},
              {"RBE2", read_rbe2},
+             {"CONM2", read_mass},
              {"PSOLID", read_property},
              {"MAT1", read_material},
              {"PARAM", read_parameter},
@@ -903,6 +936,8 @@ enum percuss_status bdf_read(const char *path, double unit, bool raise, struct s
         status = bdf_materials_give(&bdf.materials, unit, &bdf.builder, fault);
     if (status == PERCUSS_OK && !(name_all_held(&bdf) && remark_others(&bdf)))
         status = bdf_out_of_memory(&bdf);
+    for (size_t i = 0; i < bdf.builder.mass_count; i++)
+        bdf.builder.masses[i].mass *= bdf.materials.mass_factor;
     if (status == PERCUSS_OK)
         status = builder_finish(&bdf.builder, path, unit, mesh, fault);
     bdf_free(&bdf);

@@ -58,6 +58,14 @@ bool builder_add_element(struct builder *builder, enum element_type type, size_t
     return true;
 }
 
+bool builder_add_mass(struct builder *builder, size_t label, double mass)
+{
+    if (!GROW(builder->masses, builder->mass_count, builder->mass_room))
+        return false;
+    builder->masses[builder->mass_count++] = (struct builder_mass){label, mass};
+    return true;
+}
+
 static void copy_name(char to[MESH_NAME_SIZE], const char *from)
 {
     snprintf(to, MESH_NAME_SIZE, "%s", from);
@@ -468,6 +476,58 @@ static bool place_sets(const struct builder *builder, const struct index *index,
     return true;
 }
 
+static int compare_masses(const void *left, const void *right)
+{
+    const struct mesh_mass *a = left, *b = right;
+    if (a->node != b->node)
+        return a->node < b->node ? -1 : 1;
+    return a->mass < b->mass ? -1 : a->mass > b->mass;
+}
+
+/* masses on nodes of elements, one a node */
+static bool place_masses(struct builder *builder, const struct index *index,
+                         struct solid_mesh *mesh)
+{
+    double taken = 0.0, left = 0.0;
+    size_t first_left = SIZE_MAX, count = 0;
+    mesh->masses = malloc((builder->mass_count + 1) * sizeof *mesh->masses);
+    if (!mesh->masses)
+        return false;
+    for (size_t i = 0; i < builder->mass_count; i++) {
+        size_t label = builder->masses[i].label, at = builder_find(index, label);
+        size_t node = at == SIZE_MAX ? SIZE_MAX : index->numbers[at];
+        double mass = builder->masses[i].mass / mesh->unit;
+        if (node != SIZE_MAX) {
+            mesh->masses[count++] = (struct mesh_mass){node, mass};
+            taken += mass;
+            continue;
+        }
+        left += mass;
+        first_left = first_left == SIZE_MAX ? label : first_left;
+    }
+    /* in the order of nodes, those of one added up in place */
+    qsort(mesh->masses, count, sizeof *mesh->masses, compare_masses);
+    for (size_t i = 0; i < count; i++) {
+        struct mesh_mass *last = mesh->mass_count ? &mesh->masses[mesh->mass_count - 1] : NULL;
+        if (last && last->node == mesh->masses[i].node)
+            last->mass += mesh->masses[i].mass;
+        else
+            mesh->masses[mesh->mass_count++] = mesh->masses[i];
+    }
+    if (first_left != SIZE_MAX &&
+        !builder_remark(builder,
+                        "masses on nodes that no element has (node %zu first) are left out: the "
+                        "body here is lighter by %g kg",
+                        first_left, left))
+        return false;
+    return mesh->mass_count == 0 ||
+           builder_remark(builder,
+                          "masses on nodes (%zu, of %g kg in all) are part of the body, each rigid "
+                          "on its node alone: closer to one than an element the body's flexibility "
+                          "is not known",
+                          mesh->mass_count, taken);
+}
+
 /* an element's nodes the other way round: its first two natural coordinates change places */
 static void turn_over(enum element_type type, size_t *nodes)
 {
@@ -551,7 +611,8 @@ enum percuss_status builder_finish(struct builder *builder, const char *file, do
         status = place_nodes(builder, file, &index, mesh, fault);
     if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
         status = builder_out_of_memory(file, fault);
-    if (status == PERCUSS_OK && !(turn_elements(builder, mesh) && place_remarks(builder, mesh)))
+    if (status == PERCUSS_OK && !(place_masses(builder, &index, mesh) &&
+                                  turn_elements(builder, mesh) && place_remarks(builder, mesh)))
         status = builder_out_of_memory(file, fault);
     /* an error frees the unfinished mesh */
     free(index.labels);
@@ -570,6 +631,7 @@ void builder_free(struct builder *builder)
     for (size_t i = 0; i < builder->set_count; i++)
         free(builder->sets[i].labels.values);
     free(builder->sets);
+    free(builder->masses);
     free(builder->remarks);
     memset(builder, 0, sizeof *builder);
 }

@@ -32,6 +32,11 @@ struct builder_set {
     struct builder_list labels; /* of nodes */
 };
 
+struct builder_mass {
+    size_t label; /* of its node */
+    double mass;  /* N s^2 per unit of length of the file */
+};
+
 /* In place of the label of a mid node: the middle of its edge. */
 #define BUILDER_MIDDLE SIZE_MAX
 
@@ -48,6 +53,8 @@ struct builder {
     struct mesh_part *parts;
     size_t set_count, set_room;
     struct builder_set *sets;
+    size_t mass_count, mass_room;
+    struct builder_mass *masses;
     size_t remark_count, remark_room;
     char (*remarks)[MESH_REMARK_SIZE];
 };
@@ -61,6 +68,10 @@ bool builder_add_node(struct builder *builder, size_t label, const double point[
  * goes before, and a set that has both ends has it. */
 bool builder_add_element(struct builder *builder, enum element_type type, size_t label, size_t part,
                          const size_t *nodes);
+
+/* A mass > 0 on a node. builder_finish adds those of one node up, and tells of those taken and of
+ * those whose node no element has, which are left out. */
+bool builder_add_mass(struct builder *builder, size_t label, double mass);
 
 /* The index of the part or set of a name, made if there is none; SIZE_MAX: out of memory. Long
  * names are cut. */

@@ -24,6 +24,16 @@ static double smallest_at_nodes(enum element_type type, double (*points)[3])
     return smallest;
 }
 
+/* first and second moments about the origin */
+static void bulk_add_point(double mass, const double place[3], struct bulk *bulk)
+{
+    add_scaled3(mass, place, bulk->centre);
+    double square = dot3(place, place);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            bulk->inertia[3 * i + j] += mass * ((i == j ? square : 0.0) - place[i] * place[j]);
+}
+
 /* Adds one element's volume, first and second moments of mass about the origin. */
 static double bulk_add_element(const struct element_rule *rule, double (*points)[3], double density,
                                struct bulk *bulk, double *smallest)
@@ -35,12 +45,7 @@ static double bulk_add_element(const struct element_rule *rule, double (*points)
         double mass = density * here.volume;
         volume += here.volume;
         *smallest = fmin(*smallest, here.volume / rule->weight[p]);
-        add_scaled3(mass, here.position, bulk->centre);
-        double square = dot3(here.position, here.position);
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                bulk->inertia[3 * i + j] +=
-                    mass * ((i == j ? square : 0.0) - here.position[i] * here.position[j]);
+        bulk_add_point(mass, here.position, bulk);
     }
     bulk->mass += density * volume;
     bulk->volume += volume;
@@ -91,6 +96,11 @@ static void bulk_sum(const struct solid_mesh *mesh, size_t part, struct bulk *bu
 {
     *bulk = (struct bulk){.smallest_det = INFINITY, .smallest_volume = INFINITY};
     bulk_add_elements(mesh, part, bulk);
+    for (size_t i = 0; part == SIZE_MAX && i < mesh->mass_count; i++) {
+        bulk_add_point(mesh->masses[i].mass, mesh->points[mesh->masses[i].node], bulk);
+        bulk->nodes_mass += mesh->masses[i].mass;
+    }
+    bulk->mass += bulk->nodes_mass;
     /* inertia about the centre of mass (Steiner) */
     scale3(1.0 / bulk->mass, bulk->centre, bulk->centre);
     double square = dot3(bulk->centre, bulk->centre);

@@ -139,6 +139,22 @@ bool deck_add_section(struct deck *deck, const struct deck_section *section)
     return true;
 }
 
+bool deck_add_point(struct deck *deck, const struct deck_point *point)
+{
+    if (!GROW(deck->points, deck->point_count, deck->point_room))
+        return false;
+    deck->points[deck->point_count++] = *point;
+    return true;
+}
+
+bool deck_add_mass(struct deck *deck, const struct deck_mass *mass)
+{
+    if (!GROW(deck->masses, deck->mass_count, deck->mass_room))
+        return false;
+    deck->masses[deck->mass_count++] = *mass;
+    return true;
+}
+
 /* Appends a remark to a list that has not got it yet. */
 static bool add_remark(char (**list)[MESH_REMARK_SIZE], size_t *count, size_t *room,
                        const char *format, va_list args)
@@ -206,6 +222,8 @@ void deck_free(struct deck *deck)
         free(deck->materials[i].told);
     free(deck->materials);
     free(deck->sections);
+    free(deck->points);
+    free(deck->masses);
     free(deck->supports);
     free(deck->remarks);
     memset(deck, 0, sizeof *deck);

@@ -97,6 +97,20 @@ struct deck_section {
     struct deck_place place;
 };
 
+/* An element TYPE=MASS: a point. */
+struct deck_point {
+    size_t label, scope;
+    size_t node, instance; /* deck.names: whose node it is; DECK_NONE: the scope's own */
+    bool massive;          /* a *MASS has it */
+};
+
+/* A *MASS: that of each point in a set of elements. */
+struct deck_mass {
+    size_t scope, set; /* deck.names */
+    double mass;       /* in units of N, s and the file's length */
+    struct deck_place place;
+};
+
 /* deck_support.h */
 struct deck_support {
     char set[MESH_NAME_SIZE];
@@ -123,6 +137,10 @@ struct deck {
     struct deck_material *materials;
     size_t section_count, section_room;
     struct deck_section *sections;
+    size_t point_count, point_room;
+    struct deck_point *points;
+    size_t mass_count, mass_room;
+    struct deck_mass *masses;
     size_t support_count, support_room;
     struct deck_support *supports;
     size_t remark_count, remark_room;
@@ -156,6 +174,8 @@ size_t deck_add_material(struct deck *deck, const char *name, struct deck_place 
 bool deck_material_tell(struct deck *deck, size_t material, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool deck_add_section(struct deck *deck, const struct deck_section *section);
+bool deck_add_point(struct deck *deck, const struct deck_point *point);
+bool deck_add_mass(struct deck *deck, const struct deck_mass *mass);
 
 /* What is left out, and what that means; the same twice is told once. */
 bool deck_tell(struct deck *deck, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -521,6 +521,83 @@ static enum percuss_status tell_section(struct body *body, const struct deck_sec
                : body_out_of_memory(body);
 }
 
+/* ---- masses ---- */
+
+/* Whether a set of the deck names an element itself, in sets of the same scope too. */
+static bool names_element(const struct deck *deck, size_t scope, const char *name, size_t label,
+                          int depth)
+{
+    size_t found = deck_find_set(deck, DECK_ELEMENTS, scope, name);
+    const struct deck_set *set = found == DECK_NONE ? NULL : &deck->sets[found];
+    for (size_t i = 0; set && depth < DEEPEST_SET && i < set->item_count; i++) {
+        const struct deck_item *item = &set->items[i];
+        if (item->instance != DECK_NONE)
+            continue;
+        if (item->kind == DECK_RANGE && label >= item->first && label <= item->last &&
+            (label - item->first) % item->step == 0)
+            return true;
+        if (item->kind == DECK_SET &&
+            names_element(deck, scope, deck->names[item->name], label, depth + 1))
+            return true;
+    }
+    return false;
+}
+
+/* The node of a point, if it is the body's. */
+static enum percuss_status add_point(struct body *body, const struct deck_mass *mass,
+                                     const struct deck_point *point)
+{
+    struct deck *deck = body->deck;
+    bool own = is_inside(body, point->scope) && point->instance == DECK_NONE;
+    bool fine = true;
+    if (own || (point->instance != DECK_NONE &&
+                deck_same(deck->names[point->instance], deck->scopes[body->instance].name)))
+        fine = mass->mass == 0.0 || builder_add_mass(&body->builder, point->node, mass->mass);
+    else if (point->instance == DECK_NONE)
+        fine = deck_tell(deck,
+                         "*MASS, ELSET=%s (line %zu): node %zu of the assembly is no part of the "
+                         "body: left out: the body here is lighter by it",
+                         deck->names[mass->set], mass->place.line, point->node);
+    return fine ? PERCUSS_OK : body_out_of_memory(body);
+}
+
+static enum percuss_status build_mass(struct body *body, const struct deck_mass *mass)
+{
+    struct deck *deck = body->deck;
+    const char *name = deck->names[mass->set];
+    bool any = false;
+    for (size_t i = 0; i < deck->point_count; i++) {
+        struct deck_point *point = &deck->points[i];
+        if (point->scope != mass->scope || !names_element(deck, mass->scope, name, point->label, 0))
+            continue;
+        enum percuss_status status = add_point(body, mass, point);
+        if (status)
+            return status;
+        any = point->massive = true;
+    }
+    return any || deck_tell(deck,
+                            "*MASS, ELSET=%s (line %zu): has no element TYPE=MASS: left out: the "
+                            "body here is lighter by it",
+                            name, mass->place.line)
+               ? PERCUSS_OK
+               : body_out_of_memory(body);
+}
+
+static enum percuss_status build_masses(struct body *body)
+{
+    struct deck *deck = body->deck;
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t i = 0; !status && i < deck->mass_count; i++)
+        if (is_seen(body, deck->masses[i].scope))
+            status = build_mass(body, &deck->masses[i]);
+    for (size_t i = 0; !status && i < deck->point_count; i++)
+        if (is_seen(body, deck->points[i].scope) && !deck->points[i].massive &&
+            !deck_tell(deck, "element %zu: TYPE=MASS without a *MASS: is taken without one",
+                       deck->points[i].label))
+            status = body_out_of_memory(body);
+    return status;
+}
+
 /* ---- all of it ---- */
 
 static enum percuss_status build(struct body *body, double unit)
@@ -538,6 +615,8 @@ static enum percuss_status build(struct body *body, double unit)
     for (size_t i = 0; !status && i < deck->set_count; i++)
         if (is_seen(body, deck->sets[i].scope))
             status = build_set(body, &deck->sets[i]);
+    if (!status)
+        status = build_masses(body);
     return status;
 }
 

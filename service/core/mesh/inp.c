@@ -38,8 +38,10 @@ struct inp {
     size_t set, instance;
     struct inp_material material; /* under way */
     bool generate;
-    int row;                                          /* lines of an instance so far */
-    struct deck_element element;                      /* under way */
+    int row;                     /* lines of an instance so far */
+    struct deck_element element; /* under way */
+    bool point;                  /* it is a TYPE=MASS */
+    size_t masses;               /* deck.names: the set of the *MASS under way */
     size_t nodes[ELEMENT_MOST_NODES], filled, wanted; /* wanted: 0 where a line is an element */
 };
 
@@ -99,8 +101,12 @@ static enum percuss_status finish_element(struct inp *inp)
     struct deck_item item = {DECK_RANGE, 0, label, label, 1, 0, DECK_NONE, {0, 0}};
     inp->element.count = inp->filled;
     inp->filled = 0;
+    if (inp->point && inp->element.count != 1)
+        return scan_refuse(inp->scan, "*ELEMENT: %zu: TYPE=MASS: must have 1 node", label);
+    const struct deck_point point = {label, inp->scope, inp->nodes[0], DECK_NONE, false};
     return deck_add_element(&inp->deck, &inp->element, inp->nodes) &&
-                   deck_add_item(&inp->deck, inp->set, &item)
+                   deck_add_item(&inp->deck, inp->set, &item) &&
+                   (!inp->point || deck_add_point(&inp->deck, &point))
                ? PERCUSS_OK
                : inp_out_of_memory(inp);
 }
@@ -214,6 +220,40 @@ static enum percuss_status inp_read_set(struct inp *inp, char *line)
             return inp_out_of_memory(inp);
     }
     return PERCUSS_OK;
+}
+
+/* a TYPE=MASS of an assembly: its label, INSTANCE.NODE */
+static enum percuss_status inp_read_assembly_point(struct inp *inp, char *line)
+{
+    struct deck_item node = {0}, item = {.kind = DECK_RANGE, .instance = DECK_NONE, .step = 1};
+    struct deck_point point = {.scope = inp->scope};
+    if (!card_label(inp->scan, "*ELEMENT", card_field(&line), &point.label))
+        return PERCUSS_BAD_REQUEST;
+    char *field = card_field(&line);
+    inp->instance = DECK_NONE;
+    enum percuss_status status =
+        field ? read_item(inp, field, &node, DECK_RANGE, DECK_SET) : PERCUSS_OK;
+    if (!status && (!field || node.kind != DECK_RANGE))
+        return scan_refuse(inp->scan, "*ELEMENT: %zu: TYPE=MASS: must have 1 node", point.label);
+    if (status)
+        return status;
+    point.node = node.first;
+    point.instance = node.instance;
+    item.first = item.last = point.label;
+    return deck_add_point(&inp->deck, &point) && deck_add_item(&inp->deck, inp->set, &item)
+               ? PERCUSS_OK
+               : inp_out_of_memory(inp);
+}
+
+static enum percuss_status inp_read_mass(struct inp *inp, char *line)
+{
+    struct deck_mass mass = {.scope = inp->scope, .set = inp->masses, .place = inp_place(inp)};
+    if (!card_real(inp->scan, "*MASS", card_field(&line), &mass.mass))
+        return PERCUSS_BAD_REQUEST;
+    if (!(mass.mass >= 0.0 && isfinite(mass.mass)))
+        return scan_refuse(inp->scan, "*MASS: %g: must be a finite number >= 0", mass.mass);
+    inp->read = NULL;
+    return deck_add_mass(&inp->deck, &mass) ? PERCUSS_OK : inp_out_of_memory(inp);
 }
 
 /* a surface of nodes: a node or a set, and an area that stands behind it */
@@ -366,9 +406,11 @@ static enum percuss_status inp_check_type(struct inp *inp, const char *type)
 {
     static const char *const SOLIDS[] = {"C3D10", "C3D15", "C3D20", "C3D4", "C3D6", "C3D8"};
     inp->element.kind = DECK_OTHER;
+    inp->point = strcasecmp(type, "MASS") == 0;
     if (strncasecmp(type, "C3D", 3) != 0)
-        return keyword_is_surface(type) || deck_tell(&inp->deck, "*ELEMENT, TYPE=%.20s: %s", type,
-                                                     "left out: no solids of second order")
+        return inp->point || keyword_is_surface(type) ||
+                       deck_tell(&inp->deck, "*ELEMENT, TYPE=%.20s: %s", type,
+                                 "left out: no solids of second order")
                    ? PERCUSS_OK
                    : inp_out_of_memory(inp);
     for (int kind = 0; kind < DECK_OTHER; kind++) {
@@ -399,7 +441,7 @@ static enum percuss_status keyword_element(struct inp *inp, const struct card *c
     inp->wanted = inp->element.kind == DECK_OTHER ? keyword_solid_nodes(type)
                                                   : deck_element_nodes(inp->element.kind);
     /* in an assembly they name nodes of instances */
-    if (inp->scope == inp->outer) {
+    if (inp->scope == inp->outer && !inp->point) {
         if (inp->element.kind == DECK_OTHER)
             return PERCUSS_OK;
         return scan_refuse(inp->scan, "*ELEMENT: solids must be in a *PART or an *INSTANCE");
@@ -412,7 +454,7 @@ static enum percuss_status keyword_element(struct inp *inp, const struct card *c
         return inp_out_of_memory(inp);
     inp->element.scope = inp->scope;
     inp->filled = 0;
-    inp->read = inp_read_element;
+    inp->read = inp->scope == inp->outer ? inp_read_assembly_point : inp_read_element;
     return PERCUSS_OK;
 }
 
@@ -493,6 +535,23 @@ static enum percuss_status keyword_section(struct inp *inp, const struct card *c
                    deck_add_section(&inp->deck, &section)
                ? PERCUSS_OK
                : inp_out_of_memory(inp);
+}
+
+static enum percuss_status keyword_mass(struct inp *inp, const struct card *card)
+{
+    const char *set = need(inp, card, "ELSET"), *type = card_value(card, "TYPE");
+    if (!set)
+        return PERCUSS_BAD_REQUEST;
+    if (type && strncasecmp(type, "ISO", 3) != 0)
+        return deck_tell(&inp->deck,
+                         "*MASS, ELSET=%s (line %zu): TYPE=%.20s: left out, as no mass in all "
+                         "directions: the body here is lighter by it",
+                         set, inp->scan->line, type)
+                   ? PERCUSS_OK
+                   : inp_out_of_memory(inp);
+    inp->masses = deck_name(&inp->deck, set);
+    inp->read = inp_read_mass;
+    return inp->masses == DECK_NONE ? inp_out_of_memory(inp) : PERCUSS_OK;
 }
 
 /* reads another file in place of the line; its first lines of data may belong to the keyword above
@@ -612,6 +671,7 @@ static const struct {
              {"DENSITY", keyword_property},
              {"PLASTIC", keyword_property},
              {"SOLIDSECTION", keyword_section},
+             {"MASS", keyword_mass},
              {"INCLUDE", read_other_file},
              {"PART", keyword_scope},
              {"ASSEMBLY", keyword_scope},

@@ -11,7 +11,7 @@
 #include "mesh/solid_mesh.h"
 
 static const char WRITTEN_OUT[] = "nodes and elements must be written out one by one";
-static const char MASSES[] = "masses on nodes are left out: the body here is lighter by them";
+static const char MASSES[] = "left out: the body here is lighter by it";
 static const char STRUCTURES[] = "left out: neither its mass nor its stiffness is in the body";
 static const char SPRINGS[] = "left out: no spring, damper or joint acts on the body";
 static const char TIES[] = "left out: the body here is free of it";
@@ -45,7 +45,6 @@ static const struct {
     {"GAPUNIT", KEYWORD_TOLD, SPRINGS},
     {"INERTIARELIEF", KEYWORD_TOLD, TIES},
     {"KINEMATICCOUPLING", KEYWORD_TOLD, TIES},
-    {"MASS", KEYWORD_TOLD, MASSES},
     {"MEMBRANESECTION", KEYWORD_TOLD, STRUCTURES},
     {"MODELCHANGE", KEYWORD_TOLD, "left out: all elements take part"},
     {"MPC", KEYWORD_TOLD, TIES},
@@ -53,7 +52,7 @@ static const struct {
     {"PRETENSIONSECTION", KEYWORD_TOLD, "left out: the body has no prestress here"},
     {"REBAR", KEYWORD_TOLD, STRUCTURES},
     {"RIGIDBODY", KEYWORD_TOLD, "left out: the body is elastic throughout"},
-    {"ROTARYINERTIA", KEYWORD_TOLD, MASSES},
+    {"ROTARYINERTIA", KEYWORD_TOLD, "left out: masses on nodes have no inertia of their own here"},
     {"SHELLGENERALSECTION", KEYWORD_TOLD, STRUCTURES},
     {"SHELLSECTION", KEYWORD_TOLD, STRUCTURES},
     {"SPRING", KEYWORD_TOLD, SPRINGS},
@@ -135,6 +134,7 @@ static const struct {
     {"ELSET", "ELSET= GENERATE INPUT= INSTANCE= INTERNAL UNSORTED"},
     {"INCLUDE", "INPUT= PASSWORD="},
     {"INSTANCE", "INSTANCE= LIBRARY= NAME= PART="},
+    {"MASS", "ALPHA= COMPOSITE= ELSET= INPUT= ORIENTATION= TYPE="},
     {"MATERIAL", "NAME= RTOL= SRATEFACTOR= SRATETYPE= STRAINRATEREGULARIZATION= UNSYMM"},
     {"NODE", "INPUT= NSET= SYSTEM="},
     {"NSET", "ELSET= GENERATE INPUT= INSTANCE= INTERNAL NSET= UNSORTED"},

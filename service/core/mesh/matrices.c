@@ -333,6 +333,14 @@ static void add_type(const struct solid_mesh *mesh, enum element_type type,
     }
 }
 
+/* a mass on a node is in its three diagonal entries, the first of their rows */
+static void add_masses(const struct solid_mesh *mesh, struct sparse *mass)
+{
+    for (size_t i = 0; i < mesh->mass_count; i++)
+        for (size_t k = 0; k < 3; k++)
+            mass->value[mass->start[3 * mesh->masses[i].node + k]] += mesh->masses[i].mass;
+}
+
 /* Row numbers have 32 bits, and MUMPS counts in signed integers. */
 static const size_t MOST_NODES = 700000000;
 
@@ -369,6 +377,7 @@ enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices
         lay_out_rows(&adjacency, mesh->node_count, matrices)) {
         for (enum element_type type = ELEMENT_TET10; type < ELEMENT_TYPES; type++)
             add_type(mesh, type, &adjacency, element, matrices);
+        add_masses(mesh, &matrices->mass);
     } else {
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         matrices_free(matrices);

@@ -50,8 +50,8 @@ struct matrices {
     const struct solid_mesh *mesh; /* borrowed: their mesh; NULL: read from a file */
 };
 
-/* Linear elastic, each part of its material. PERCUSS_BAD_REQUEST: a node belongs to no element, or
- * the mesh has too many; PERCUSS_INTERNAL without memory. */
+/* Linear elastic, each part of its material, with the masses on nodes. PERCUSS_BAD_REQUEST: a node
+ * belongs to no element, or the mesh has too many; PERCUSS_INTERNAL without memory. */
 enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices *matrices,
                                   struct fault *fault);
 

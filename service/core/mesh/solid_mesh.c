@@ -21,6 +21,7 @@ void solid_mesh_free(struct solid_mesh *mesh)
     for (size_t i = 0; i < mesh->set_count; i++)
         free(mesh->set[i].nodes);
     free(mesh->set);
+    free(mesh->masses);
     free(mesh->remarks);
     memset(mesh, 0, sizeof *mesh);
 }

@@ -35,6 +35,12 @@ struct mesh_set {
     size_t *nodes; /* [count], ascending */
 };
 
+/* A rigid mass that moves with a node, without an inertia of its own. */
+struct mesh_mass {
+    size_t node;
+    double mass; /* kg */
+};
+
 /* Owns its arrays. */
 struct solid_mesh {
     double unit; /* m of one unit of length of the file */
@@ -51,6 +57,8 @@ struct solid_mesh {
     struct mesh_part *part;
     size_t set_count;
     struct mesh_set *set;
+    size_t mass_count;
+    struct mesh_mass *masses; /* [mass_count], nodes ascending */
     size_t remark_count;
     char (*remarks)[MESH_REMARK_SIZE]; /* what its reader left out or added, for the user */
 };

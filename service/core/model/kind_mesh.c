@@ -275,7 +275,8 @@ static const char *mesh_kind_why_not(const struct body *body, const struct site 
                "away";
     return "the body's flexibility is not known there: its wall is thinner than 0.4 of an element, "
            "or its surface comes back over itself within a third of one: reduce a mesh of elements "
-           "no longer than the wall is thick or the gap wide";
+           "no longer than the wall is thick or the gap wide; or a mass stands on a node within an "
+           "element";
 }
 
 static void mesh_kind_load(const struct body *body, const struct site *site,

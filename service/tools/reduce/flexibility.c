@@ -450,6 +450,19 @@ static void add_far_mass(const struct volume_rule *rule, size_t element,
         add_scaled3(1.0, sums[i], momentum + 3 * nodes[i]);
 }
 
+/* Masses on nodes, by the nodes' displacements ([3 node_count]); not those so close to the place
+ * (flexibility_place_massive) that the field has no displacement of a rigid mass there. */
+static void add_nodes_mass(const struct volume_rule *rule, const struct flexibility_place *place,
+                           const double *displacements, double *momentum)
+{
+    const struct solid_mesh *mesh = rule->mesh;
+    for (size_t i = 0; i < mesh->mass_count; i++) {
+        size_t at = 3 * mesh->masses[i].node;
+        if (!flexibility_place_beside(place, mesh->points[mesh->masses[i].node]))
+            add_scaled3(mesh->masses[i].mass, displacements + at, momentum + at);
+    }
+}
+
 /* Adds the field's displacements u as mass feels them, the integral of rho N^T u, to momentum
  * ([3 node_count], kg m/N). `spare` is as large. */
 static void flexibility_volume_add_mass(const struct volume_rule *rule,
@@ -468,6 +481,7 @@ static void flexibility_volume_add_mass(const struct volume_rule *rule,
         else
             add_far_mass(rule, e, spare, momentum);
     }
+    add_nodes_mass(rule, place, spare, momentum);
 }
 
 /* ---- integrals over the volume: stiffness ---- */

@@ -510,6 +510,21 @@ bool flexibility_place_thin(const struct flexibility_place *place)
     return place->wall < THIN * place->element;
 }
 
+bool flexibility_place_beside(const struct flexibility_place *place, const double node[3])
+{
+    double offset[3];
+    sub3(node, place->load.point, offset);
+    return norm3(offset) < place->element;
+}
+
+bool flexibility_place_massive(const struct flexibility_place *place, const struct solid_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->mass_count; i++)
+        if (flexibility_place_beside(place, mesh->points[mesh->masses[i].node]))
+            return true;
+    return false;
+}
+
 double flexibility_edges_known(const struct flexibility_edges *edges, size_t face)
 {
     return KNOWN_FROM * edges->reach[face];

@@ -73,6 +73,14 @@ struct flexibility_place {
  * times as long as they are thick, 4 to 10 % (twice), 34 to 40 % (4 times), 55 % (8 times). */
 bool flexibility_place_thin(const struct flexibility_place *place);
 
+/* A mass on that node is too close to the place: within an element of it. */
+bool flexibility_place_beside(const struct flexibility_place *place, const double node[3]);
+
+/* A mass of the mesh is: the flexibility there is that of how the mass is fixed, which the mesh
+ * does not know. */
+bool flexibility_place_massive(const struct flexibility_place *place,
+                               const struct solid_mesh *mesh);
+
 /* Patches of a surface and their sharp edges. Sharp edges are those that a patch has alone. Owns
  * its arrays. */
 struct flexibility_edges {

@@ -33,6 +33,9 @@ static void tell_mass(const struct reduction *reduction)
 {
     const struct bulk *bulk = &reduction->bulk;
     const double *j = bulk->inertia;
+    if (bulk->nodes_mass > 0.0)
+        printf("on nodes        %zu rigid mass%s, %.6g kg\n", reduction->mesh.mass_count,
+               reduction->mesh.mass_count == 1 ? "" : "es", bulk->nodes_mass);
     printf("mass            %.6g kg\n", bulk->mass);
     printf("centre          %.6g %.6g %.6g m\n", bulk->centre[0], bulk->centre[1], bulk->centre[2]);
     printf("inertia         xx %.6g yy %.6g zz %.6g xy %.6g yz %.6g zx %.6g kg m^2\n", j[0], j[4],
@@ -225,6 +228,7 @@ static void report_json(const struct reduction *reduction)
     put_parts(&reduction->mesh);
     put_list("extent", 3, reduction->findings.extent, 1.0);
     put_number("mass", bulk->mass);
+    put_number("mass_on_nodes", bulk->nodes_mass);
     put_number("volume", bulk->volume);
     put_number("volume_error", volume_gap(reduction));
     put_count("straight_edges", reduction->surface.straight);

@@ -70,6 +70,8 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
         sha256_add(&hash, &material->yield, sizeof material->yield);
         sha256_add(&hash, &material->tangent, sizeof material->tangent);
     }
+    if (mesh->mass_count)
+        sha256_add(&hash, mesh->masses, mesh->mass_count * sizeof *mesh->masses);
     /* supports, and matrices from elsewhere */
     if (parts->held)
         sha256_add(&hash, parts->held, 3 * mesh->node_count * sizeof *parts->held);

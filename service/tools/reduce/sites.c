@@ -307,7 +307,8 @@ static enum percuss_status solve_block(void *context, size_t block, struct fault
     enum percuss_status status =
         flexibility_solve(sites->flexibility, count, places, answers, fault);
     for (size_t c = 0; c < count && status == PERCUSS_OK; c++) {
-        double value = at_cut(sites, &places[c], &answers[c]);
+        bool massive = flexibility_place_massive(&places[c], sites->task->body.mesh);
+        double value = massive ? NAN : at_cut(sites, &places[c], &answers[c]);
         bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
         blocks->values[first + c] = known ? value : NAN;
         blocks->imbalances[first + c] = answers[c].imbalance;
@@ -367,7 +368,8 @@ static double make_symmetric(struct sites *sites, double near_it)
             float *b = &sites->between[j * sites->count + i];
             double offset[3];
             sub3(sites->places[i].load.point, sites->places[j].load.point, offset);
-            if (norm3(offset) >= near_it)
+            bool kept = !isnan(sites->values[i]) && !isnan(sites->values[j]);
+            if (norm3(offset) >= near_it && kept)
                 largest = fmax(largest, fabs((double)*a - (double)*b));
             *a = *b = 0.5f * (*a + *b);
         }

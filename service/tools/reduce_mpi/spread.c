@@ -54,11 +54,12 @@ static void receive_mesh(const struct solid_mesh *own, int rank, struct solid_me
         *mesh = *own;
     else
         memset(mesh, 0, sizeof *mesh);
-    size_t counts[3] = {mesh->node_count, mesh->element_count, mesh->part_count};
+    size_t counts[4] = {mesh->node_count, mesh->element_count, mesh->part_count, mesh->mass_count};
     broadcast_bytes(counts, sizeof counts);
     mesh->node_count = counts[0];
     mesh->element_count = counts[1];
     mesh->part_count = counts[2];
+    mesh->mass_count = counts[3];
     mesh->points = receive_array(mesh->points, counts[0] * sizeof *mesh->points, rank);
     mesh->types = receive_array(mesh->types, counts[1] * sizeof *mesh->types, rank);
     mesh->first = receive_array(mesh->first, (counts[1] + 1) * sizeof *mesh->first, rank);
@@ -66,6 +67,23 @@ static void receive_mesh(const struct solid_mesh *own, int rank, struct solid_me
         receive_array(mesh->nodes, mesh->first[mesh->element_count] * sizeof *mesh->nodes, rank);
     mesh->parts = receive_array(mesh->parts, counts[1] * sizeof *mesh->parts, rank);
     mesh->part = receive_array(mesh->part, counts[2] * sizeof *mesh->part, rank);
+    mesh->masses = receive_array(mesh->masses, counts[3] * sizeof *mesh->masses, rank);
+}
+
+/* Masses on nodes whose first element is one of `from` ... `to`: each in one share. `number`: the
+ * piece's nodes, from one. */
+static void cut_masses(const struct solid_mesh *mesh, size_t from, size_t to, const size_t *number,
+                       struct solid_mesh *piece)
+{
+    piece->masses = take_memory(mesh->mass_count * sizeof *piece->masses);
+    for (size_t i = 0; i < mesh->mass_count; i++) {
+        size_t node = mesh->masses[i].node, at = 0;
+        while (at < mesh->first[to] && mesh->nodes[at] != node)
+            at++;
+        if (at >= mesh->first[from] && at < mesh->first[to])
+            piece->masses[piece->mass_count++] =
+                (struct mesh_mass){number[node] - 1, mesh->masses[i].mass};
+    }
 }
 
 /* Elements `from` ... `to` with the nodes that they have. */
@@ -101,6 +119,7 @@ static void cut_piece(const struct solid_mesh *mesh, size_t from, size_t to, str
     }
     for (size_t i = 0; i < total; i++)
         piece->nodes[i] = number[mesh->nodes[start + i]] - 1;
+    cut_masses(mesh, from, to, number, piece);
     free(number);
 }
 
@@ -119,6 +138,7 @@ static void take_elements(const struct solid_mesh *own, int rank, int size, stru
     free(piece.first);
     free(piece.nodes);
     free(piece.points);
+    free(piece.masses);
     if (rank != 0)
         solid_mesh_free(&mesh);
 }

@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A folder with the file of a body, and nothing else. */
+/* A folder with the file of a body, that of the same one with a mass on a node, and nothing else.
+ */
 #ifndef PERCUSS_TEST_ROD_FILE_H
 #define PERCUSS_TEST_ROD_FILE_H
 
@@ -38,6 +39,9 @@ static inline int rod_file_make(void **state)
     body->centre[0] = 0.15;
     snprintf(path, sizeof path, "%s/rod.h5", rod_folder);
     int failed = body_file_write(path, body, &fault);
+    body->mass += 0.1;
+    snprintf(path, sizeof path, "%s/massive.h5", rod_folder);
+    failed = failed || body_file_write(path, body, &fault);
     mesh_body_free(body);
     return failed;
 }
@@ -47,6 +51,8 @@ static inline int rod_file_remove(void **state)
     (void)state;
     char path[96];
     snprintf(path, sizeof path, "%s/rod.h5", rod_folder);
+    remove(path);
+    snprintf(path, sizeof path, "%s/massive.h5", rod_folder);
     remove(path);
     return rmdir(rod_folder);
 }

@@ -240,6 +240,9 @@ static void says_what_is_wrong(void **state)
     bad("{shape: mesh, file: rod.h5, material: none}", "none: unknown material");
     bad("{shape: mesh, file: rod.h5, material: other}",
         "poisson: 0.3: must be 0.33, with which the mesh was reduced");
+    bad("{shape: mesh, file: massive.h5, material: alloy}",
+        "material: must be absent: the file has masses on nodes, 0.1 kg of 0.354469 kg, which no "
+        "material scales");
     bad("{shape: mesh, file: rod.h5, scale: 0}", "scale: 0: must be a number > 0");
     bad("{shape: mesh, file: rod.h5, sites: {tip: {}}}", "sites.tip.point: missing");
     bad("{shape: mesh, file: rod.h5, sites: {tip: {point: [150, 0, 0]}}}",

@@ -257,14 +257,16 @@ static void names_what_holds(void **state)
     assert_int_equal(set_named(&mesh, "PSHELL 8")->count, 6);
     /* one direction alone is not what --fixed holds */
     assert_null(set_named(&mesh, "SPC 4"));
-    assert_int_equal(mesh.remark_count, 5);
+    assert_int_equal(mesh.remark_count, 6);
     assert_string_equal(mesh.remarks[0], "SPC 1 is not held here: --fixed 'SPC 1' holds it");
     assert_string_equal(mesh.remarks[2],
                         "SPC 4 holds node 1 in some directions alone, which --fixed "
                         "cannot: this set is not taken");
     assert_string_equal(mesh.remarks[4],
-                        "cards that are not read, and no part of the body: RBE2 (line "
-                        "22), CONM2 (line 24)");
+                        "cards that are not read, and no part of the body: RBE2 (line 22)");
+    assert_non_null(strstr(mesh.remarks[5], "masses on nodes (1, of 5"));
+    assert_int_equal(mesh.mass_count, 1);
+    assert_int_equal(mesh.labels[mesh.masses[0].node], 1);
     solid_mesh_free(&mesh);
 }
 
