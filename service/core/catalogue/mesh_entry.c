@@ -24,7 +24,7 @@
 /* ---- orders of reductions, and the files' names ---- */
 
 /* Version of percuss-reduce's results: raise it where they change for the same mesh. */
-static const char METHOD[] = "percuss reduced body 2";
+static const char METHOD[] = "percuss reduced body 3";
 static const double MOST_FREQUENCY = 1e12; /* Hz, as far as percuss-reduce takes it */
 
 static enum percuss_status out_of_memory(const struct reader *reader)
@@ -92,14 +92,34 @@ static enum percuss_status read_fixed(struct reader *reader, const yaml_node_t *
     return status;
 }
 
+static enum percuss_status read_instance(struct reader *reader, const yaml_node_t *value,
+                                         const struct key *key, struct body_order *order)
+{
+    if (value->type != YAML_SCALAR_NODE || value->data.scalar.length == 0)
+        return reader_refuse_value(reader, value, key->allowed);
+    return add_argument(reader, order, "--instance=%s", (const char *)value->data.scalar.value);
+}
+
+static enum percuss_status read_raise(struct reader *reader, const yaml_node_t *value,
+                                      const struct key *key, struct body_order *order)
+{
+    if (reader_is(value, "true"))
+        return add_argument(reader, order, "--raise");
+    return reader_is(value, "false") ? PERCUSS_OK
+                                     : reader_refuse_value(reader, value, key->allowed);
+}
+
 /* Keys that stand beside a mesh alone. */
 struct option_key {
     const char *name;
     enum percuss_status (*read)(struct reader *reader, const yaml_node_t *value,
                                 const struct key *key, struct body_order *order);
 };
-static const struct option_key option_keys[] = {
-    {"unit", read_unit}, {"max_frequency", read_frequency}, {"fixed", read_fixed}};
+static const struct option_key option_keys[] = {{"unit", read_unit},
+                                                {"max_frequency", read_frequency},
+                                                {"fixed", read_fixed},
+                                                {"instance", read_instance},
+                                                {"raise", read_raise}};
 enum { OPTION_KEYS = sizeof option_keys / sizeof *option_keys };
 
 /* Refuses keys that may only stand beside a mesh. */

@@ -138,7 +138,7 @@ const char *body_theory(const struct body *body);
 
 /* A body of the catalogue that is given as a mesh, or by a file that is missing, and the news of
  * its reduction. */
-enum { BODY_ORDER_SETS = 32, BODY_ORDER_ARGUMENTS = BODY_ORDER_SETS + 4, BODY_NEWS_SIZE = 480 };
+enum { BODY_ORDER_SETS = 32, BODY_ORDER_ARGUMENTS = BODY_ORDER_SETS + 6, BODY_NEWS_SIZE = 480 };
 
 /* The reply to a request for the body. */
 struct body_news {

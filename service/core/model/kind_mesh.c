@@ -63,6 +63,11 @@ static const struct key keys[] = {
      KEY_SAYS("as far as the mesh is good, at most 300 modes", "all modes of a mesh below it")},
     {"fixed", KEY_LIST, .required = false, .allowed = "a list of names of sets of the mesh",
      KEY_SAYS("it is free", "what of a mesh is held")},
+    {"instance", KEY_TEXT, .required = false,
+     .allowed = "the name of an instance in the assembly of a deck",
+     KEY_SAYS("the only one with solids", "which part of a deck of Abaqus is the body")},
+    {"raise", KEY_TEXT, .required = false, .allowed = "true or false",
+     KEY_SAYS("false", "whether linear elements are taken, with mid nodes on straight edges")},
 };
 
 static enum percuss_status mesh_kind_check(const struct body *body, struct fault *fault)

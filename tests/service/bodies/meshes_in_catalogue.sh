@@ -28,6 +28,8 @@ say "what a mesh needs beside it"
 refused "block: unit: missing: must be m, cm, mm" "block: {shape: mesh, file: block.inp}"
 refused "unit: furlong: must be m, cm, mm" "block: {shape: mesh, file: block.inp, unit: furlong}"
 refused "max_frequency: -1: must be a frequency in Hz" "block: {shape: mesh, file: block.inp, unit: mm, max_frequency: -1}"
+refused "raise: maybe: must be true or false" "block: {shape: mesh, file: block.inp, unit: mm, raise: maybe}"
+refused "instance: must be absent" "block: {shape: mesh, file: block.h5, instance: B-1}"
 refused "none.inp: No such file" "block: {shape: mesh, file: none.inp, unit: mm}"
 refused "unit: must be absent" "block: {shape: mesh, file: block.h5, unit: mm}"
 settings
@@ -80,7 +82,7 @@ start_daemon
 expect 0 percuss query --a steel-sphere --b block --at-b top --speed 0.2
 
 say "one that cannot be reduced: log and requests say why"
-body "block: {$block, fixed: [nowhere]}"
+body "block: {$block, instance: nowhere, raise: true}"
 kill -HUP "$daemon"
 failed() {
     logged "block: could not be reduced: percuss-reduce: .*nowhere"

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors the orders of service/core/catalogue/mesh_entry.c: bodies whose files are not there, or not
- * yet. */
+/* Mirrors the orders of service/core/catalogue/mesh_entry.c: bodies whose files are not there, or
+ * not yet. */
 #include "catalogue/mesh_entry.h"
 
 #include <unistd.h>
@@ -79,6 +79,9 @@ static void a_mesh_is_ordered_until_its_body_is_there(void **state)
     assert_string_not_equal(order_of("unit: mm, material: alloy, fixed: [low]").name, first.name);
     assert_string_not_equal(order_of("unit: mm, material: alloy, max_frequency: 1e4").name,
                             first.name);
+    assert_string_not_equal(order_of("unit: mm, material: alloy, instance: B-1").name, first.name);
+    assert_string_not_equal(order_of("unit: mm, material: alloy, raise: true").name, first.name);
+    assert_string_equal(order_of("unit: mm, material: alloy, raise: false").name, first.name);
     assert_non_null(strstr(first.material, "yield: 300000000"));
     /* why there is none */
     static const char *const kinds[] = {"failed", "killed"};
