@@ -357,3 +357,13 @@ void plot_range_set(const struct plot *plot, const char *axis, const struct plot
     fprintf(plot->script, "set %s [%.9g:%.9g]\n", axis, low - margin * width,
             high + margin * width);
 }
+
+void plot_range_set_log(const struct plot *plot, const char *axis, const struct plot_range *range,
+                        double margin)
+{
+    bool none = range->low > range->high;
+    double low = none ? 1.0 : range->low, high = none ? 1.0 : range->high;
+    double wider = high > low ? pow(high / low, margin) : 1.1;
+    fprintf(plot->script, "set logscale %s\nset %srange [%.9g:%.9g]\n", axis, axis, low / wider,
+            high * wider);
+}

@@ -72,4 +72,8 @@ void plot_range_take_all(struct plot_range *range, const double *values, size_t 
 void plot_range_set(const struct plot *plot, const char *axis, const struct plot_range *range,
                     double margin);
 
+/* The same of numbers > 0 on a logarithmic axis. */
+void plot_range_set_log(const struct plot *plot, const char *axis, const struct plot_range *range,
+                        double margin);
+
 #endif

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
@@ -54,27 +55,64 @@ static bool slides(const struct sweep_points *points)
     return false;
 }
 
-static void write_curve(struct plot *plot, const struct sweep_points *points, size_t k)
+/* Of the restitution: all that is known. */
+static double error_of(const struct sweep_row *row)
+{
+    double error = isnan(row->error_total) ? row->error : row->error_total;
+    return isnan(error) ? 0.0 : error;
+}
+
+/* The ends of its bar, as far as there are restitutions. */
+static struct plot_range bar_of(const struct sweep_row *row)
+{
+    double e = row->restitution, error = error_of(row);
+    return (struct plot_range){fmax(e - error, fmin(e, 0.0)), fmin(e + error, fmax(e, 1.0))};
+}
+
+/* A list of speeds comes in any order. */
+static int compare_places(const void *one, const void *other)
+{
+    const struct sweep_row *const *a = one, *const *b = other;
+    double speeds = (*a)->speed - (*b)->speed, angles = (*a)->angle - (*b)->angle;
+    double difference = speeds != 0.0 ? speeds : angles;
+    return (difference > 0.0) - (difference < 0.0);
+}
+
+static void write_row(const struct plot *plot, const struct sweep_points *points,
+                      const struct sweep_row *row, bool friction)
+{
+    fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u", place_of(points, row), row->restitution,
+            isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
+    if (friction)
+        fprintf(plot->data, ",%.9g,%.9g,%.9g", row->impulse_tangential[0],
+                row->tangential_restitution, row->restitution_kinematic);
+    const struct plot_range bar = bar_of(row);
+    fprintf(plot->data, ",%.3g,%.9g,%.9g\n", error_of(row), bar.low, bar.high);
+}
+
+/* Its points along the axis. False: out of memory. */
+static bool write_curve(struct plot *plot, const struct sweep_points *points, size_t k)
 {
     char name[PLOT_NAME];
     snprintf(name, sizeof name, "curve_%zu", k + 1);
     bool friction = slides(points);
     char columns[160];
-    snprintf(columns, sizeof columns, "%s,restitution,error,sub_impacts,significant%s",
+    snprintf(columns, sizeof columns,
+             "%s,restitution,error,sub_impacts,significant%s,error_total,bar_low,bar_high",
              points->by_angle ? "angle" : "speed",
              friction ? ",impulse_tangential_1,tangential_restitution,restitution_kinematic" : "");
     plot_table(plot, name, columns);
-    for (unsigned i = 0; i < points->curves[k].done; i++) {
-        const struct sweep_row *row = &points->curves[k].rows[i];
-        if (row->sub_impacts == 0)
-            continue;
-        fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u", place_of(points, row), row->restitution,
-                isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
-        if (friction)
-            fprintf(plot->data, ",%.9g,%.9g,%.9g", row->impulse_tangential[0],
-                    row->tangential_restitution, row->restitution_kinematic);
-        putc('\n', plot->data);
-    }
+    const struct sweep_curve *curve = &points->curves[k];
+    const struct sweep_row **rows = calloc(curve->done + 1, sizeof *rows);
+    for (unsigned i = 0; rows && i < curve->done; i++)
+        rows[i] = &curve->rows[i];
+    if (rows)
+        qsort(rows, curve->done, sizeof *rows, compare_places);
+    for (unsigned i = 0; rows && i < curve->done; i++)
+        if (rows[i]->sub_impacts > 0)
+            write_row(plot, points, rows[i], friction);
+    free(rows);
+    return rows != NULL;
 }
 
 /* Restitutions that were measured; an impact known by its impulse alone is no point here. */
@@ -107,10 +145,10 @@ static struct axes take_axes(const struct sweep_points *points)
     for (size_t k = 0; k < points->curve_count; k++)
         for (unsigned i = 0; i < points->curves[k].done; i++) {
             const struct sweep_row *row = &points->curves[k].rows[i];
-            double error = isnan(row->error) ? 0.0 : row->error;
             plot_range_take(&axes.speed, place_of(points, row));
-            plot_range_take(&axes.restitution, row->restitution - error);
-            plot_range_take(&axes.restitution, row->restitution + error);
+            const struct plot_range bar = bar_of(row);
+            plot_range_take(&axes.restitution, bar.low);
+            plot_range_take(&axes.restitution, bar.high);
             plot_range_take(&axes.count, row->sub_impacts);
             if (!axes.friction)
                 continue;
@@ -184,18 +222,21 @@ static void write_title(const struct plot *plot, const struct group *group, size
     plot_text(plot, title);
 }
 
-/* Restitution with its error; with friction the kinematic one where it is another. */
-static void write_restitution(const struct plot *plot, const struct group *group, bool kinematic)
+/* Restitution with its total error; with friction the kinematic one where it is another. */
+static void write_restitution(const struct plot *plot, const struct group *group,
+                              const struct axes *axes)
 {
     const char *comma = "plot ";
+    const int bar = axes->friction ? 10 : 7; /* column of its lower end */
+    const bool kinematic = axes->kinematic;
     for (size_t k = 0; k < group->points->curve_count; k++) {
         if (!holds(group, k))
             continue;
         fprintf(plot->script,
-                "%s@curve_%zu using 1:($2-$3):(0):(2*$3) with vectors nohead lt %zu lw 1 "
+                "%s@curve_%zu using 1:%d:(0):($%d-$%d) with vectors nohead lt %zu lw 1 "
                 "notitle, "
                 "@curve_%zu using 1:2 with linespoints lt %zu lw 1 ps 0.6 title ",
-                comma, k + 1, colour_of(group, k), k + 1, colour_of(group, k));
+                comma, k + 1, bar, bar + 1, bar, colour_of(group, k), k + 1, colour_of(group, k));
         write_title(plot, group, k);
         if (kinematic)
             fprintf(plot->script, ", @curve_%zu using 1:8 with lines lt %zu lw 1 dt (6,5) notitle",
@@ -294,10 +335,13 @@ static void write_group(const struct plot *plot, const struct group *group, cons
     bool first = left * plot->width < AXIS + 1;
     set_panel(plot, UPPER + (axes->friction ? 2 * TANGENTIAL : 0), HIGH);
     fputs("set format x ''\nunset xlabel\n", plot->script);
-    plot_range_set(plot, "xrange", &axes->speed, 0.02);
+    if (group->points->logarithmic)
+        plot_range_set_log(plot, "x", &axes->speed, 0.02);
+    else
+        plot_range_set(plot, "xrange", &axes->speed, 0.02);
     plot_range_set(plot, "yrange", &axes->restitution, 0.05);
     write_subtitle(plot, group, 0.5 * (left + right));
-    write_restitution(plot, group, axes->kinematic);
+    write_restitution(plot, group, axes);
     fputs("unset label 1\n", plot->script);
     for (int which = 0; which < 2 && axes->friction; which++) {
         set_panel(plot, UPPER + (1 - which) * TANGENTIAL, TANGENTIAL);
@@ -348,8 +392,11 @@ int sweep_plot(const struct plot_output *output, const struct sweep_points *poin
         plot_begin(&plot, output, AXIS + width, HEIGHT + (axes.friction ? 2 * TANGENTIAL : 0));
     if (code != EXIT_ANSWERED)
         return code;
+    bool good = true;
     for (size_t k = 0; k < points->curve_count; k++)
-        write_curve(&plot, points, k);
+        good = write_curve(&plot, points, k) && good;
+    if (!good)
+        complain_memory();
     for (size_t k = 0; k < points->measured_count; k++)
         write_measured(&plot, points, k);
     fputs("set multiplot title ", plot.script);
@@ -363,5 +410,6 @@ int sweep_plot(const struct plot_output *output, const struct sweep_points *poin
                     (left + (double)width / (double)groups - GAP) / whole);
     }
     fputs("unset multiplot\n", plot.script);
-    return plot_end(&plot);
+    code = plot_end(&plot);
+    return good ? code : EXIT_FAILURE;
 }

@@ -118,6 +118,7 @@ static void reply_csv_head(const char *lead, bool friction, bool units)
                  "restitution_kinematic,friction_state,sub_impulse_tangential_1,"
                  "sub_impulse_tangential_2,sub_friction_state",
                  units);
+    csv_head(stdout, ",error_total", units);
     putchar('\n');
 }
 
@@ -170,7 +171,7 @@ static void reply_csv_print(const char *lead, bool friction, const struct percus
                    sub->impulse, sub->peak_force, sub->max_indentation, sub->negligible);
             if (friction)
                 print_csv_friction(contact, sub);
-            putchar('\n');
+            printf(",%.17g\n", reply_total_error(reply));
         }
     }
     reply_table_tell(reply);

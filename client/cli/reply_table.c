@@ -13,6 +13,13 @@ double reply_restitution_error(const struct percuss_reply *reply)
     return fabs(reply->error.restitution_time) + fabs(reply->error.restitution_modes);
 }
 
+double reply_total_error(const struct percuss_reply *reply)
+{
+    const double total = reply->error.restitution_total;
+    bool known = total >= reply_restitution_error(reply) || reply->error.restitution_model > 0.0;
+    return known ? total : NAN;
+}
+
 unsigned reply_significant(const struct percuss_contact_result *contact)
 {
     unsigned count = 0;
@@ -172,22 +179,20 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
 /* Where an unstated yield makes so much of the error, its rest is told. */
 static const double ELASTIC_SHARE = 0.9;
 
-/* With all that is known to be wrong with it, and the parts of that. A server of 0.1.0 knows no
- * error of the models. */
+/* With all that is known to be wrong with it, and the parts of that. */
 static void print_restitution(const struct percuss_reply *reply, double restitution)
 {
     double numerical = reply_restitution_error(reply);
-    double model = reply->error.restitution_model;
-    bool whole = reply->error.restitution_total >= numerical || model > 0.0;
-    printf("  restitution  %.6g +- %.2g  (the model ", restitution,
-           whole ? reply->error.restitution_total : numerical);
+    double total = reply_total_error(reply);
+    bool whole = !isnan(total);
+    printf("  restitution  %.6g +- %.2g  (the model ", restitution, whole ? total : numerical);
     if (whole)
-        printf("%.2g", model);
+        printf("%.2g", reply->error.restitution_model);
     else
         printf("not known");
     printf(", modes and steps %.1g)\n", numerical);
-    double elastic = reply->error.restitution_total - reply->error.restitution_yield;
-    if (whole && elastic < ELASTIC_SHARE * reply->error.restitution_total)
+    double elastic = total - reply->error.restitution_yield;
+    if (whole && elastic < ELASTIC_SHARE * total)
         printf("               +- %.2g if metals whose yield is not stated stay elastic\n",
                elastic);
 }

@@ -20,6 +20,9 @@ void reply_table_tell(const struct percuss_reply *reply);
 /* Estimated error of the restitution: time steps and modes together; NAN: unknown. */
 double reply_restitution_error(const struct percuss_reply *reply);
 
+/* The same with that of the models; NAN: unknown, as to a server of 0.1.0. */
+double reply_total_error(const struct percuss_reply *reply);
+
 /* Whether one of its contacts has friction. */
 bool reply_has_friction(const struct percuss_reply *reply);
 

@@ -274,7 +274,7 @@ static const char *friction_state_of(const char *name)
 static bool parse_row(const struct reading *reading, size_t k, unsigned i, struct sweep_row *row)
 {
     char status[32] = "", slip[32] = "";
-    int end = 0;
+    int end = 0, askew = 0;
     const char *text = reading->line;
     for (int skipped = 0; reading->points->curve_count > 1 && skipped < 2; skipped++) {
         text = strchr(text, ',');
@@ -287,10 +287,12 @@ static bool parse_row(const struct reading *reading, size_t k, unsigned i, struc
                status, &end) != 8)
         return false;
     if (reading->points->askew &&
-        sscanf(text + end, ",%lf,%lf,%lf,%lf,%lf,%lf,%lf,%31[^,]", &row->angle,
+        sscanf(text + end, ",%lf,%lf,%lf,%lf,%lf,%lf,%lf,%31[^,]%n", &row->angle,
                &row->impulse_tangential[0], &row->impulse_tangential[1], &row->slip_after[0],
-               &row->slip_after[1], &row->tangential_restitution, &row->restitution_kinematic,
-               slip) != 8)
+               &row->slip_after[1], &row->tangential_restitution, &row->restitution_kinematic, slip,
+               &askew) != 8)
+        return false;
+    if (sscanf(text + end + askew, ",%lf", &row->error_total) != 1)
         return false;
     row->status = status_of(status);
     row->friction_state = friction_state_of(slip);
@@ -401,16 +403,19 @@ static bool sweep_file_agrees(const char *name, const struct sweep_points *point
 }
 
 enum { MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_MEASURED };
+enum { KEY_SPEED = OPTION_OWN, KEY_SPEEDS, KEY_CSV, KEY_RESUME, KEY_MEASURED };
 enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
 
 struct sweep {
     struct common *common;
     struct scene scene;
     double low, high;
-    unsigned speed_count;   /* 0: no --speed */
-    const char *speed_text; /* of one speed alone */
-    unsigned count;         /* points */
+    bool logarithmic;        /* equal ratios between them, not equal differences */
+    unsigned speed_count;    /* 0: no --speed */
+    const char *speed_text;  /* of one speed alone */
+    const char *speeds_file; /* the speeds instead; NULL: none */
+    double *speeds;          /* of that */
+    unsigned count;          /* points */
     bool csv;
     const char *resume; /* file that is gone on with; NULL: none */
     struct plot_output plot;
@@ -419,8 +424,12 @@ struct sweep {
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "LO:HI:N", 0,
-     "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31; one speed with "
-     "--angle LO:HI:N",
+     "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31; LO:HI:N:log: with "
+     "equal ratios; one speed with --angle LO:HI:N",
+     10},
+    {"speeds", KEY_SPEEDS, "FILE.csv", 0,
+     "the speeds in this file's column speed, in their order; - is standard input; --column says "
+     "what it calls them",
      10},
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
     {"resume", KEY_RESUME, "FILE.csv", 0,
@@ -447,10 +456,12 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
         sweep->speed_text = text;
         return;
     }
-    if (!count || strspn(count + 1, "0123456789") != strlen(count + 1))
+    size_t digits = count ? strspn(count + 1, "0123456789") : 0;
+    sweep->logarithmic = count && !strcmp(count + 1 + digits, ":log");
+    if (!count || (count[1 + digits] && !sweep->logarithmic))
         argp_error(state,
                    "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
-                   "\"100 mm/s:400 mm/s:31\"",
+                   "\"100 mm/s:400 mm/s:31\", nor LO:HI:N:log",
                    text);
     /* two speeds, each with a unit or without */
     if (!quantity_read(text, (size_t)(high - text), QUANTITY_SPEED, &sweep->low, &fault) ||
@@ -464,6 +475,24 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     if (points < 1 || points > MOST_POINTS)
         argp_error(state, "--speed: '%s': N of 1..%d is needed", text, MOST_POINTS);
     sweep->speed_count = (unsigned)points;
+}
+
+/* The speeds of a file. */
+static void read_speeds(struct sweep *sweep, struct argp_state *state)
+{
+    struct measured_remarks remarks = {0};
+    size_t count = 0;
+    if (sweep->speed_count > 0)
+        argp_error(state, "--speed or --speeds, not both");
+    bool good = measured_read_speeds(sweep->speeds_file, &sweep->measured.columns, &sweep->speeds,
+                                     &count, &remarks);
+    measured_file_complain("--speeds: ", &remarks);
+    if (!good)
+        argp_error(state, "--speeds: '%s' is not read", sweep->speeds_file);
+    if (count > MOST_POINTS)
+        argp_error(state, "--speeds: '%s': at most %d speeds, not %zu", sweep->speeds_file,
+                   MOST_POINTS, count);
+    sweep->speed_count = (unsigned)count;
 }
 
 /* Either the speeds differ or the angles. */
@@ -484,9 +513,14 @@ static void check_points(struct sweep *sweep, struct argp_state *state)
 
 static void sweep_check(struct sweep *sweep, struct argp_state *state)
 {
+    if (sweep->speeds_file)
+        read_speeds(sweep, state);
     const struct scene_need speeds = {"--speed LO:HI:N", sweep->speed_count > 0};
     scene_check_given(&sweep->scene, &speeds, 1, "", state);
     check_points(sweep, state);
+    if (sweep->measured.columns.count > 0 && sweep->measured.count == 0 && !sweep->speeds_file)
+        argp_error(state, "--column is of a file that is read: --measured FILE or --speeds FILE "
+                          "is needed");
     if (sweep->csv && sweep->common->json)
         argp_error(state, "--csv or --json, not both");
     if (sweep->resume && (sweep->csv || sweep->common->json))
@@ -506,6 +540,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     /* the speeds */
     case KEY_SPEED:
         parse_speeds(text, sweep, state);
+        return 0;
+    case KEY_SPEEDS:
+        sweep->speeds_file = text;
         return 0;
     /* the files */
     case KEY_CSV:
@@ -561,6 +598,19 @@ static double value_at(double low, double high, unsigned count, unsigned i)
     return count == 1 ? low : low + (high - low) * i / (count - 1);
 }
 
+static double speed_at(const struct sweep *sweep, unsigned i)
+{
+    if (sweep->speeds)
+        return sweep->speeds[i];
+    if (!sweep->logarithmic)
+        return value_at(sweep->low, sweep->high, sweep->count, i);
+    /* both ends as they were given */
+    return i == 0 ? sweep->low
+           : i + 1 == sweep->count
+               ? sweep->high
+               : sweep->low * pow(sweep->high / sweep->low, (double)i / (sweep->count - 1));
+}
+
 /* The speed and the angle of each point. False: out of memory. */
 static bool list_points(struct work *work)
 {
@@ -569,7 +619,7 @@ static bool list_points(struct work *work)
     work->speeds = calloc(sweep->count, sizeof *work->speeds);
     work->angles = calloc(sweep->count, sizeof *work->angles);
     for (unsigned i = 0; work->speeds && work->angles && i < sweep->count; i++) {
-        work->speeds[i] = value_at(sweep->low, sweep->high, sweep->count, i);
+        work->speeds[i] = speed_at(sweep, i);
         work->angles[i] = value_at(scene->angle, scene->last_angle, sweep->count, i);
     }
     return work->speeds && work->angles;
@@ -728,6 +778,7 @@ static bool list_curves(struct work *work, struct percuss_client *client)
                                          .speeds = work->speeds,
                                          .angles = work->angles,
                                          .by_angle = scene->angle_list,
+                                         .logarithmic = sweep->logarithmic,
                                          .askew = scene->askew,
                                          .friction = scene->friction,
                                          .curve_count = count,
@@ -788,5 +839,6 @@ int command_sweep(int argc, char **argv, struct common *common)
     code = run_sweep(&sweep, client);
     percuss_client_free(client);
     sweep_measured_free(&sweep.measured);
+    free(sweep.speeds);
     return code;
 }

@@ -23,6 +23,7 @@ struct sweep_row sweep_row_of(const struct sweep_points *points, unsigned i,
     struct sweep_row row = {.speed = points->speeds[i],
                             .restitution = NAN,
                             .error = NAN,
+                            .error_total = NAN,
                             .impulse = NAN,
                             .end_time = NAN,
                             .status = percuss_status_name(reply->status),
@@ -37,6 +38,7 @@ struct sweep_row sweep_row_of(const struct sweep_points *points, unsigned i,
         const struct percuss_contact_result *contact = &reply->contacts[0];
         row.restitution = contact->restitution;
         row.error = reply_restitution_error(reply);
+        row.error_total = reply_total_error(reply);
         row.impulse = contact->impulse;
         row.sub_impacts = contact->sub_impact_count;
         row.significant = reply_significant(contact);
@@ -58,14 +60,15 @@ void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i)
         printf("%s%s on %s, contact model %s\n", k == 0 ? "" : "\n", points->a, curve->b,
                curve->contact_model);
     if (i == 0) {
-        printf("%10s %12s %9s %13s %11s %11s %12s", "speed m/s", "restitution", "error",
-               "impulse N s", "sub-impacts", "significant", "end time ms");
+        printf("%10s %12s %9s %9s %13s %11s %11s %12s", "speed m/s", "restitution", "error",
+               "numerical", "impulse N s", "sub-impacts", "significant", "end time ms");
         if (points->askew)
             printf(" %9s %14s %12s %9s", "angle deg", "tangential N s", "tang. rest.", "slip");
         puts("  status");
     }
-    printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f", row->speed, row->restitution, row->error,
-           row->impulse, row->sub_impacts, row->significant, 1e3 * row->end_time);
+    printf("%10.5g %12.6f %9.1e %9.1e %13.6g %11u %11u %12.4f", row->speed, row->restitution,
+           row->error_total, row->error, row->impulse, row->sub_impacts, row->significant,
+           1e3 * row->end_time);
     if (points->askew)
         printf(" %9.5g %14.6g %12.6f %9s", row->angle, row->impulse_tangential[0],
                row->tangential_restitution, row->friction_state);
@@ -83,6 +86,7 @@ void sweep_csv_head(const struct sweep_points *points, FILE *file)
                  ",angle,impulse_tangential_1,impulse_tangential_2,slip_after_1,slip_after_2,"
                  "tangential_restitution,restitution_kinematic,friction_state",
                  points->units);
+    csv_head(file, ",error_total", points->units);
     putc('\n', file);
 }
 
@@ -100,7 +104,7 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
                 row->impulse_tangential[0], row->impulse_tangential[1], row->slip_after[0],
                 row->slip_after[1], row->tangential_restitution, row->restitution_kinematic,
                 row->friction_state);
-    putc('\n', file);
+    fprintf(file, ",%.17g\n", row->error_total);
 }
 
 static json_t *curve_to_json(const struct sweep_curve *curve)
@@ -113,6 +117,7 @@ static json_t *curve_to_json(const struct sweep_curve *curve)
         json_object_set_new(point, "angle", json_number(row.angle));
         json_object_set_new(point, "restitution", json_number(row.restitution));
         json_object_set_new(point, "error", json_number(row.error));
+        json_object_set_new(point, "error_total", json_number(row.error_total));
         json_object_set_new(point, "impulse", json_number(row.impulse));
         json_object_set_new(point, "sub_impacts", json_integer(row.sub_impacts));
         json_object_set_new(point, "significant", json_integer(row.significant));
@@ -180,8 +185,6 @@ void sweep_measured_read(struct sweep_measurements *measurements, const struct s
         check_measured(&measurements->list[i], scene, state);
     if (measurements->count > 0 && !is_drawn)
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
-    if (measurements->columns.count > 0 && measurements->count == 0)
-        argp_error(state, "--column is of a file that is measured: --measured FILE is needed");
     for (size_t i = 0; i < measurements->count; i++) {
         struct measured_remarks remarks = {0};
         struct sweep_measured *measured = &measurements->list[i];

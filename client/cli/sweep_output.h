@@ -2,9 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The results of a sweep: a curve for every body B and contact model asked for. Columns: speed
- * (m/s), restitution, its estimated error, impulse (N s), sub-impacts, significant ones, end time
- * (s), status; before them b and contact_model where there are several curves; behind them, where
- * friction or an angle was asked for, the angle (degrees) and what friction did. */
+ * (m/s), restitution, its estimated error by time steps and modes, impulse (N s), sub-impacts,
+ * significant ones, end time (s), status; before them b and contact_model where there are several
+ * curves; behind them, where friction or an angle was asked for, the angle (degrees) and what
+ * friction did; at the end the restitution's total error, that of the models with it. */
 #ifndef PERCUSS_CLI_SWEEP_OUTPUT_H
 #define PERCUSS_CLI_SWEEP_OUTPUT_H
 
@@ -45,7 +46,7 @@ void sweep_measured_free(struct sweep_measurements *measurements);
 
 /* NAN where undefined. */
 struct sweep_row {
-    double speed, restitution, error, impulse;
+    double speed, restitution, error, error_total, impulse;
     unsigned sub_impacts, significant;
     double end_time;
     const char *status;
@@ -68,6 +69,7 @@ struct sweep_points {
     unsigned count;                /* points of a curve */
     const double *speeds, *angles; /* of each; degrees */
     bool by_angle;                 /* these differ, else the speeds */
+    bool logarithmic;              /* the axis of the speeds */
     bool askew;                    /* there are columns of the angle and of friction */
     double friction;               /* the coefficient that was given, else NAN */
     size_t curve_count;
@@ -95,7 +97,7 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
  * {"curves": [{"b", "contact_model", "points"}], "warnings": [...]} */
 void sweep_print_json(const struct sweep_points *points);
 
-/* The restitution against the speed, or the angle, with its estimated error, the number of
+/* The restitution against the speed, or the angle, with its total error, the number of
  * sub-impacts below; with friction the tangential impulse and restitution between them. Exit code;
  * complains. */
 int sweep_plot(const struct plot_output *output, const struct sweep_points *points);

@@ -274,6 +274,53 @@ bool measured_read(const char *file, const struct column_map *map, struct measur
     return false;
 }
 
+/* Speeds of the rows that have one; room for a row each. */
+static size_t take_speeds(struct table *table, double *speeds, struct measured_remarks *remarks)
+{
+    const char *file = text_name(table->layout.source->file);
+    struct left_out left = {0};
+    char text[400] = "";
+    size_t count = 0;
+    for (size_t row = 0; row < table->rows; row++) {
+        size_t errors = remarks->errors;
+        table_number(table, row, IMPACT_SPEED, &speeds[count], remarks);
+        if (!isnan(speeds[count]))
+            count++;
+        else if (remarks->errors == errors)
+            left_out_add(&left, table->numbers[row]);
+    }
+    left_out_tell(&left, REASONS[LACKS_SPEED], text, sizeof text);
+    if (left.count > 0)
+        remarks_note(remarks, "%s: %zu of %zu rows left out: %s", file, left.count, table->rows,
+                     text);
+    table_note_unusual(table, remarks);
+    if (count == 0)
+        remarks_wrong(remarks, "%s: no speeds: at least one line is needed", file);
+    return count;
+}
+
+bool measured_read_speeds(const char *file, const struct column_map *map, double **speeds,
+                          size_t *count, struct measured_remarks *remarks)
+{
+    const struct table_source source = {file, IMPACT_KINDS, IMPACT_SPEED + 1, map};
+    struct table table;
+    size_t errors = remarks->errors;
+    *speeds = NULL;
+    if (!table_read(&source, &table, remarks))
+        return false;
+    *speeds = calloc(table.rows + 1, sizeof **speeds);
+    if (*speeds)
+        *count = take_speeds(&table, *speeds, remarks);
+    else
+        remarks_wrong(remarks, "%s: out of memory", text_name(file));
+    table_free(&table);
+    if (remarks->errors == errors)
+        return true;
+    free(*speeds);
+    *speeds = NULL;
+    return false;
+}
+
 void measured_complete(struct measured_impact *impact, double mass_a, double w)
 {
     if (isnan(impact->impulse))

@@ -48,6 +48,11 @@ void measured_set_free(struct measured_set *set);
 bool measured_read(const char *file, const struct column_map *map, struct measured_set *set,
                    struct measured_remarks *remarks);
 
+/* Reads the column of speeds alone, of such a file. Rows without one are left out, with a note.
+ * False with all faults. The caller frees *speeds, of *count. */
+bool measured_read_speeds(const char *file, const struct column_map *map, double **speeds,
+                          size_t *count, struct measured_remarks *remarks);
+
 /* Appends an impact. False: out of memory. */
 bool measured_append(struct measured_set *set, const struct measured_impact *impact);
 

@@ -160,11 +160,11 @@ def _name(curve: "Curve", curves: Sequence["Curve"]) -> str:
 
 
 def sweep(swept: "Sweep", figure: Any) -> Any:
-    """The restitution with its estimated error over the speed, and the number of sub-impacts below."""
+    """The restitution with its total error over the speed, and the number of sub-impacts below."""
     figure = _figure(figure, (8.0, 6.0))
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     for i, curve in enumerate(swept.curves):
-        error = np.nan_to_num(curve.error)
+        error = np.nan_to_num(np.where(np.isnan(curve.error_total), curve.error, curve.error_total))
         there = np.isfinite(curve.restitution)
         style = {"color": f"C{i}", "markersize": 3, "linewidth": 1.0}
         above.errorbar(

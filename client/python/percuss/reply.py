@@ -180,6 +180,12 @@ class ErrorEstimate:
         """Of the restitution, by time steps and modes: what the tolerance is asked of."""
         return abs(self.restitution_time) + abs(self.restitution_modes)
 
+    @property
+    def total(self) -> float:
+        """restitution_total where the server knows it; nan of one of 0.1.0, which knows no error of the models."""
+        known = self.restitution_total >= self.restitution or self.restitution_model > 0.0
+        return self.restitution_total if known else float("nan")
+
 
 @dataclass(frozen=True)
 class BodyModel:

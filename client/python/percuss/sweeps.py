@@ -33,7 +33,7 @@ _OUTSTANDING = 16
 """Enough to keep a server's workers busy, few enough for its queue."""
 _BUSY_PAUSE = 0.001
 """s before a busy server is asked again."""
-_COLUMNS = ("speed", "restitution", "error", "impulse", "sub_impacts", "significant", "end_time", "status")
+_COLUMNS = ("speed", "restitution", "error", "impulse", "sub_impacts", "significant", "end_time", "status", "error_total")
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,8 @@ class Curve:
     """Those that are not negligible."""
     end_time: FloatArray
     """s."""
+    error_total: FloatArray
+    """Of the restitution, that of the models with it; nan: not known, as to a server of 0.1.0."""
     replies: tuple[Reply, ...] = field(repr=False)
 
     @property
@@ -65,8 +67,7 @@ class Curve:
 
     def _columns(self) -> dict[str, Any]:
         names = {"b": self.b, "contact_model": self.contact_model.text}
-        numbers = {name: getattr(self, name) for name in _COLUMNS[:-1]}
-        return {**names, **numbers, "status": [status.name for status in self.status]}
+        return {**names, **{name: getattr(self, name) for name in _COLUMNS}, "status": [one.name for one in self.status]}
 
 
 @dataclass(frozen=True)
@@ -84,11 +85,11 @@ class Sweep:
 
     def to_dataframe(self) -> Any:
         """A row a point: b, contact_model, and what the command line writes: speed, restitution, error, impulse,
-        sub_impacts, significant, end_time, status."""
+        sub_impacts, significant, end_time, status, error_total."""
         return _tables.stack([curve._columns() for curve in self.curves], ("b", "contact_model", *_COLUMNS))
 
     def plot(self, figure: Any = None) -> Any:
-        """Draws the restitution with its estimated error over the speed, the number of sub-impacts below.
+        """Draws the restitution with its total error over the speed, the number of sub-impacts below.
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.sweep(self, figure)
@@ -103,7 +104,7 @@ class Sweep:
                     for *numbers, count, end, status in zip(
                         curve.speed,
                         curve.restitution,
-                        curve.error,
+                        np.where(np.isnan(curve.error_total), curve.error, curve.error_total),
                         curve.impulse,
                         curve.sub_impacts,
                         curve.end_time,
@@ -200,16 +201,15 @@ def _ask(client: Client, questions: Sequence[Request], timeout: float) -> list[R
 
 def _curve(a: Body, b: Body, model: ContactModel, speeds: FloatArray, replies: Sequence[Reply]) -> Curve:
     rows = [_row(reply) for reply in replies]
-    columns = [np.array(column) for column in zip(*rows)] or [np.zeros(0)] * 6
-    restitution, error, impulse, sub_impacts, significant, end_time = columns
-    return Curve(
-        a.id, b.id, model, speeds, restitution, error, impulse, sub_impacts, significant, end_time, tuple(replies)
-    )
+    columns = [np.array(column) for column in zip(*rows)] or [np.zeros(0)] * 7
+    restitution, error, impulse, sub_impacts, significant, end_time, total = columns
+    numbers = (restitution, error, impulse, sub_impacts, significant, end_time, total)
+    return Curve(a.id, b.id, model, speeds, *numbers, replies=tuple(replies))
 
 
-def _row(reply: Reply) -> tuple[float, float, float, int, int, float]:
+def _row(reply: Reply) -> tuple[float, float, float, int, int, float, float]:
     if not reply.contacts:
-        return np.nan, np.nan, np.nan, 0, 0, np.nan
+        return np.nan, np.nan, np.nan, 0, 0, np.nan, np.nan
     contact = reply.contacts[0]
     return (
         contact.restitution,
@@ -218,4 +218,5 @@ def _row(reply: Reply) -> tuple[float, float, float, int, int, float]:
         contact.sub_impact_count,
         contact.significant,
         contact.end_time,
+        reply.error.total,
     )

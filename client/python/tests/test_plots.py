@@ -156,8 +156,11 @@ class Plots(unittest.TestCase):
         sweep = percuss.sweep("steel-sphere", ["al-rod", "al-beam"], [0.1, 0.2, 0.3], self.local)
         figure = sweep.plot()
         above, below = self.rendered(figure)
-        for curve in sweep.curves:
+        for curve, bars in zip(sweep.curves, above.containers):
             self.drawn(above, curve.restitution)
+            (segments,) = bars[2]
+            ends = [segment[:, 1] for segment in segments.get_segments()]
+            np.testing.assert_allclose([0.5 * (high - low) for low, high in ends], curve.error_total)
             self.drawn(below, curve.sub_impacts)
         self.assertEqual([text.get_text() for text in figure.legends[0].get_texts()], ["al-rod", "al-beam"])
 

@@ -29,7 +29,8 @@ struct named {
     struct unit unit;
 };
 
-/* International foot and pound of 1959; psi is lbf/in^2 with g = 9.80665 m/s^2. */
+/* International foot, of which a mile has 5,280, and pound of 1959; psi is lbf/in^2 with g
+ * = 9.80665 m/s^2. */
 static const struct named UNITS[] = {
     {"m", true, {1, 1, 0, 0, 1, 0}},
     {"g", true, {1, 1, -3, 1, 0, 0}},
@@ -43,6 +44,8 @@ static const struct named UNITS[] = {
     {"h", false, {3600, 1, 0, 0, 0, 1}},
     {"in", false, {254, 1, -4, 0, 1, 0}},
     {"ft", false, {3048, 1, -4, 0, 1, 0}},
+    {"mi", false, {1609344, 1, -3, 0, 1, 0}},
+    {"mph", false, {1609344, 3600, -3, 0, 1, -1}},
     {"lb", false, {45359237, 1, -8, 1, 0, 0}},
     {"psi", true, {44482216152605, 64516, -5, 1, -1, -2}},
 };

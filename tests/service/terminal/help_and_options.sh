@@ -82,7 +82,7 @@ cat >"$work/two.json" <<'END'
               {"a": 2, "b": 0, "point": [0.4, 0, 0.010], "normal": [0, 0, 1]}]}
 END
 expect 0 percuss query --request "$work/two.json" --csv
-[ "$(sed -n 's/^1,.*,OK,//p' "$out")" = "0,nan,nan,nan,nan,nan,0" ] || fail "the line of the second contact"
+[ "$(sed -n 's/^1,.*,OK,\(.*\),[^,]*$/\1/p' "$out")" = "0,nan,nan,nan,nan,nan,0" ] || fail "the line of the second contact"
 
 say "units in their first line where they are wanted, and nothing else of them is changed"
 pair="--a steel-sphere --b al-beam"

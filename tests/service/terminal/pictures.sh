@@ -166,7 +166,7 @@ say "a sweep with friction: tangential impulse and restitution; where they diffe
 picture angles "0.3 m/s, friction 0.3|tangential impulse / mN s|tangential restitution|angle / degrees" sweep --a steel-sphere \
     --b steel-sphere --speed 0.3 --angle 5:65:13 --friction 0.3
 grep -q kinematic "$work/angles/plot.gp" && fail "two restitutions of two balls"
-[ "$(head -n 1 "$work/angles/curve_1.csv")" = "angle,restitution,error,sub_impacts,significant,impulse_tangential_1,tangential_restitution,restitution_kinematic" ] ||
+[ "$(head -n 1 "$work/angles/curve_1.csv")" = "angle,restitution,error,sub_impacts,significant,impulse_tangential_1,tangential_restitution,restitution_kinematic,error_total,bar_low,bar_high" ] ||
     fail "the columns have other names"
 awk -F, '$1 == 45 { found = $6 < -4.8e-3 && $6 > -5e-3 && $7 > 0.46 && $7 < 0.47 } END { exit !found }' \
     "$work/angles/curve_1.csv" || fail "not the tangential impulse and restitution at 45 degrees"
@@ -201,6 +201,14 @@ for name in compare ensemble; do
     grep -q "multiplot .*title '$asked" "$work/$name/plot.gp" || fail "$name: the picture does not say what was asked"
 done
 picture sweep "$asked" sweep $pair --speed 0.1:0.3:3
+# the bars are the total error's, and end where no restitution is
+grep -q '1:7:(0):($8-$7) with vectors' "$work/sweep/plot.gp" || fail "bars of another error"
+awk -F, 'NR > 1 && !($6 > 20 * $3 && $7 >= 0 && $8 <= 1) { exit 1 }' "$work/sweep/curve_1.csv" || fail "not the total error, or beyond what can be"
+printf 'speed\n0.3\n0.1\n0.2\n' >"$work/speeds.csv"
+picture listed "$asked" sweep $pair --speeds "$work/speeds.csv"
+cmp "$work/sweep/curve_1.csv" "$work/listed/curve_1.csv" || fail "the curve goes to and fro"
+picture decades "$asked" sweep $pair --speed 0.01:1:3:log
+grep -q '^set logscale x$' "$work/decades/plot.gp" || fail "the axis is not logarithmic"
 
 say "the script draws the same picture from the files; they are there without gnuplot, too"
 for format in png svg; do

@@ -49,6 +49,45 @@ say "speeds and times, of every command that takes them"
     same --timeout=50 --timeout=50s ensemble $pair --speed uniform:0.1:0.4 --samples 32 --json
 }
 
+say "speeds of a sweep with equal ratios, and those of a file"
+# shellcheck disable=SC2086
+{
+    expect 0 percuss sweep $pair --speed 0.03:3:5:log --csv
+    [ "$(cut -d, -f 1 "$out" | tail -n +2 | awk '{ printf "%.5g ", $1 }')" = "0.03 0.094868 0.3 0.94868 3 " ] ||
+        fail "no equal ratios"
+    cp "$out" "$work/log.csv"
+    expect 0 percuss sweep $pair --speeds "$work/log.csv" --csv
+    cmp "$work/log.csv" "$out" || fail "the file's speeds are others"
+    printf 'rig 7\n no;v [mph]\n1;2\n2;\n3;0,5\n' >"$work/rig.csv"
+    expect 0 percuss sweep $pair --speeds "$work/rig.csv" --column speed=v --csv
+    says "rig.csv: 1 of 3 rows left out: no speed in line 4"
+    [ "$(cut -d, -f 1 "$out" | tail -n +2 | awk '{ printf "%.6g ", $1 }')" = "0.89408 0.22352 " ] || fail "not the speeds"
+    refused "--speed or --speeds, not both" sweep $pair --speed 1:2:3 --speeds "$work/rig.csv" --column speed=v
+    refused "rig.csv:1: column 'speed': missing" sweep $pair --speeds "$work/rig.csv"
+    refused "--measured FILE or --speeds FILE is needed" sweep $pair --speed 1:2:3 --column speed=v
+    refused "--speed: '1:2:3:lin' is not LO:HI:N" sweep $pair --speed 1:2:3:lin
+}
+
+say "a table has the total error of the restitution, which the models make"
+# shellcheck disable=SC2086
+{
+    percuss query $pair --speed 0.3 --json >"$work/reply.json" 2>"$err"
+    percuss query $pair --speed 0.3 --csv >"$work/query.csv" 2>"$err"
+    percuss sweep $pair --speed 0.3:0.3:1 --csv >"$work/sweep.csv" 2>"$err"
+    percuss sweep $pair --speed 0.3:0.3:1 >"$work/sweep.txt" 2>"$err"
+}
+python3 - "$work" <<'END' || fail "not the total error"
+import csv, json, sys
+reply = json.load(open(f"{sys.argv[1]}/reply.json"))
+total, time, modes = (reply["error"][f"restitution_{name}"] for name in ("total", "time", "modes"))
+for name in "query", "sweep":
+    row = next(csv.DictReader(open(f"{sys.argv[1]}/{name}.csv")))
+    assert float(row["error_total"]) == total and float(row["error"]) == abs(time) + abs(modes), row
+# twenty times and more: the aluminium states no yield
+assert total > 20 * (abs(time) + abs(modes))
+assert float(open(f"{sys.argv[1]}/sweep.txt").read().splitlines()[1].split()[2]) == float(f"{total:.1e}")
+END
+
 # shellcheck disable=SC2086
 expect 2 percuss query $pair --speed 0.3 --at 1.2m
 says "--at: 1.2 m from its end is beyond al-beam, which is 1 m long"
