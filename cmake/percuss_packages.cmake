@@ -9,6 +9,11 @@ set(made ${PROJECT_BINARY_DIR}/packages)
 # settings, which an upgrade leaves as they were edited; what the daemon writes is in the unit's folder
 file(READ config/percussd.yaml settings)
 string(REGEX REPLACE "\n# Settings of percussd[^\n]*" "" settings "${settings}")
+# beside their schemas in /usr/share they would be by a path that is relative
+file(READ config/catalogue.yaml bodies)
+foreach(text settings bodies)
+  string(REPLACE "\$schema=" "\$schema=/usr/share/percuss/" ${text} "${${text}}")
+endforeach()
 foreach(change
     "tables: tables=>tables: /usr/share/percuss/tables"
     "# bodies: /var/lib/percussd/bodies=>bodies: /var/lib/percussd/bodies"
@@ -23,7 +28,8 @@ foreach(change
   string(REPLACE "\n${shipped}\n" "\n${packaged}\n" settings "${settings}")
 endforeach()
 file(WRITE ${made}/percussd.yaml "${settings}")
-install(FILES ${made}/percussd.yaml config/catalogue.yaml
+file(WRITE ${made}/catalogue.yaml "${bodies}")
+install(FILES ${made}/percussd.yaml ${made}/catalogue.yaml
         DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/percuss COMPONENT daemon)
 install(FILES deploy/systemd/percussd.service DESTINATION lib/systemd/system COMPONENT daemon)
 install(DIRECTORY client/python/percuss DESTINATION lib/python3/dist-packages COMPONENT python

@@ -11,6 +11,7 @@
 #include "json_schema.h"
 #include "reply_json.h"
 #include "request_json.h"
+#include "schema_files.h"
 
 /* JSON Schemas of the commands' outputs besides replies and reports of ensembles. */
 
@@ -386,21 +387,32 @@ static json_t *doctor_schema(void)
     return OBJECT(members);
 }
 
+/* Of the files that percussd reads. */
+static json_t *catalogue_schema(void)
+{
+    return json_loads(SCHEMA_OF_catalogue, 0, NULL);
+}
+
+static json_t *settings_schema(void)
+{
+    return json_loads(SCHEMA_OF_percussd, 0, NULL);
+}
+
 struct kind {
     const char *name;
     json_t *(*schema)(void);
 };
 
 static const struct kind kinds[] = {
-    {"request", request_schema}, {"reply", reply_schema},     {"ensemble", ensemble_schema},
-    {"sweep", sweep_schema},     {"compare", compare_schema}, {"calibrate", calibrate_schema},
-    {"bodies", bodies_schema},   {"remarks", remarks_schema}, {"dents", dents_schema},
-    {"status", status_schema},   {"ping", ping_schema},       {"doctor", doctor_schema},
-    {"query", query_schema},
+    {"request", request_schema}, {"reply", reply_schema},         {"ensemble", ensemble_schema},
+    {"sweep", sweep_schema},     {"compare", compare_schema},     {"calibrate", calibrate_schema},
+    {"bodies", bodies_schema},   {"remarks", remarks_schema},     {"dents", dents_schema},
+    {"status", status_schema},   {"ping", ping_schema},           {"doctor", doctor_schema},
+    {"query", query_schema},     {"catalogue", catalogue_schema}, {"settings", settings_schema},
 };
 #define KIND_NAMES                                                                                 \
     "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping, "  \
-    "doctor, query"
+    "doctor, query, catalogue, settings"
 
 struct choice {
     struct common *common;
@@ -435,11 +447,11 @@ static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp schema_argp = {
     .parser = parse,
     .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping|"
-                "doctor|query",
+                "doctor|query|catalogue|settings",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
            "that 'query --json' prints (query: of several), of what another command prints with "
            "--json, or of the remarks of "
-           "'bodies --check --json'; asks no server.",
+           "'bodies --check --json', or of a catalogue or settings in YAML; asks no server.",
     .children = children,
 };
 

@@ -14,21 +14,10 @@
 #include "ensemble/spec.h"
 #include "model/ritz_store.h"
 
-enum kind {
-    KIND_WHOLE,
-    KIND_NUMBER,
-    KIND_SWITCH,
-    KIND_PATH,
-    KIND_FOLDERS,
-    KIND_PARTITION,
-    KIND_LEVEL,
-    KIND_FORMAT
-};
-
 /* One key; a dot separates a section from its keys. */
 struct setting {
     const char *path;
-    enum kind kind;
+    enum settings_kind kind;
     size_t offset;
     double low, high;
     const char *otherwise; /* where the key is absent; NULL: the value of settings_default */
@@ -38,73 +27,74 @@ struct setting {
 #define AT(member) offsetof(struct settings, member)
 
 static const struct setting table[] = {
-    {"catalogue", KIND_PATH, AT(catalogue), 0, 0, "none: --catalogue must say it",
+    {"catalogue", SETTINGS_PATH, AT(catalogue), 0, 0, "none: --catalogue must say it",
      "bodies and materials, percuss-catalogue(5); read again at SIGHUP"},
-    {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN, NULL,
+    {"domain", SETTINGS_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN, NULL,
      "DDS domain; the command line and PERCUSS_DOMAIN go before it"},
-    {"partition", KIND_PARTITION, AT(partition), 0, 0,
+    {"partition", SETTINGS_PARTITION, AT(partition), 0, 0,
      "none: it answers those who ask in no partition",
      "DDS partition in which it answers, so that daemons with different catalogues share a domain"},
-    {"workers", KIND_WHOLE, AT(workers), 1, 256, "one for every processor",
+    {"workers", SETTINGS_WHOLE, AT(workers), 1, 256, "one for every processor",
      "threads that solve; there are as many again, and one more, of low priority for what takes "
      "long"},
-    {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536, NULL,
+    {"queue_capacity", SETTINGS_WHOLE, AT(queue_capacity), 1, 65536, NULL,
      "requests that may wait in each of the queues, a batch counting as one; what comes on top is "
      "answered BUSY"},
-    {"inline_solves", KIND_SWITCH, AT(inline_solves), 0, 0, NULL,
+    {"inline_solves", SETTINGS_SWITCH, AT(inline_solves), 0, 0, NULL,
      "whether the reading thread solves a cheap request itself when nothing else waits"},
-    {"limits.seconds", KIND_NUMBER, AT(limit_seconds), 0.001, 1e9, NULL,
+    {"limits.seconds", SETTINGS_NUMBER, AT(limit_seconds), 0.001, 1e9, NULL,
      "seconds of solving that one request may take; then its answer is TIMEOUT, of an ensemble "
      "what "
      "there is by then"},
-    {"limits.samples", KIND_WHOLE, AT(limit_samples), 1, ENSEMBLE_MAX_SAMPLES, NULL,
+    {"limits.samples", SETTINGS_WHOLE, AT(limit_samples), 1, ENSEMBLE_MAX_SAMPLES, NULL,
      "samples of one ensemble"},
-    {"limits.clients", KIND_WHOLE, AT(limit_clients), 1, 65536, NULL,
+    {"limits.clients", SETTINGS_WHOLE, AT(limit_clients), 1, 65536, NULL,
      "clients that may be there at once; those of one process take at most half of the places"},
-    {"limits.megabytes", KIND_WHOLE, AT(limit_megabytes), 16, 4194304,
+    {"limits.megabytes", SETTINGS_WHOLE, AT(limit_megabytes), 16, 4194304,
      "none: vibrations have 256, bodies 32 for each thread",
      "megabytes of all that is kept from one request to the next: a quarter each for states, "
      "replies, vibrations of blocks and cylinders, and bodies that the solving threads have "
      "prepared"},
-    {"tokens.count", KIND_WHOLE, AT(token_count), 1, 10000000, NULL,
+    {"tokens.count", SETTINGS_WHOLE, AT(token_count), 1, 10000000, NULL,
      "state tokens that are kept, those used last"},
-    {"tokens.megabytes", KIND_WHOLE, AT(token_megabytes), 1, 1048576, NULL,
+    {"tokens.megabytes", SETTINGS_WHOLE, AT(token_megabytes), 1, 1048576, NULL,
      "megabytes that they may take"},
-    {"tokens.minutes", KIND_NUMBER, AT(token_minutes), 0.001, 100000, NULL,
+    {"tokens.minutes", SETTINGS_NUMBER, AT(token_minutes), 0.001, 100000, NULL,
      "minutes for which one is kept without use"},
-    {"replies.per_client", KIND_WHOLE, AT(replies_per_client), 1, 65536, NULL,
+    {"replies.per_client", SETTINGS_WHOLE, AT(replies_per_client), 1, 65536, NULL,
      "last replies of each client that are kept, so that a repeated request gets the same one"},
-    {"replies.megabytes", KIND_WHOLE, AT(reply_megabytes), 1, 1048576, NULL,
+    {"replies.megabytes", SETTINGS_WHOLE, AT(reply_megabytes), 1, 1048576, NULL,
      "megabytes that all of them may take"},
-    {"store", KIND_PATH, AT(store), 0, 0, "none: what names a specimen is refused",
+    {"store", SETTINGS_PATH, AT(store), 0, 0, "none: what names a specimen is refused",
      "SQLite file of the specimens' dents and replies, made if need be"},
-    {"backup", KIND_PATH, AT(backup), 0, 0, "none",
+    {"backup", SETTINGS_PATH, AT(backup), 0, 0, "none",
      "copy of the store, written at SIGUSR1 while it is in use"},
-    {"stored_replies", KIND_WHOLE, AT(stored_replies), 1, 10000000, NULL,
+    {"stored_replies", SETTINGS_WHOLE, AT(stored_replies), 1, 10000000, NULL,
      "replies to requests of specimens that the store keeps"},
-    {"standby", KIND_PATH, AT(standby), 0, 0, "none: this daemon answers at once",
+    {"standby", SETTINGS_PATH, AT(standby), 0, 0, "none: this daemon answers at once",
      "file whose lock says which of several daemons with these settings answers, and under which "
      "id"},
-    {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000, NULL,
+    {"session_minutes", SETTINGS_NUMBER, AT(session_minutes), 0.001, 100000, NULL,
      "minutes for which a client that has gone is remembered, with its replies"},
-    {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400, NULL,
+    {"drain_seconds", SETTINGS_NUMBER, AT(drain_seconds), 0, 86400, NULL,
      "seconds for what is queued after SIGTERM"},
-    {"tables", KIND_FOLDERS, AT(tables), 0, 0, "none: metals yield by the closed form",
+    {"tables", SETTINGS_FOLDERS, AT(tables), 0, 0, "none: metals yield by the closed form",
      "folders of contact tables and of their family for all metals; beside them stand the shipped "
      "tables and those of one's own, percuss-tables(8)"},
-    {"tables_alone", KIND_SWITCH, AT(tables_alone), 0, 0, NULL,
+    {"tables_alone", SETTINGS_SWITCH, AT(tables_alone), 0, 0, NULL,
      "whether the folders of `tables` are all: neither the shipped tables nor those of one's own "
      "are beside them"},
-    {"bodies", KIND_PATH, AT(bodies), 0, 0, "none: the catalogue names reduced bodies only",
+    {"bodies", SETTINGS_PATH, AT(bodies), 0, 0, "none: the catalogue names reduced bodies only",
      "folder of bodies that percussd has reduced from the catalogue's meshes"},
-    {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000, NULL,
+    {"bodies_days", SETTINGS_NUMBER, AT(bodies_days), 0.001, 100000, NULL,
      "days after which a body there that no catalogue has named is deleted"},
-    {"security", KIND_PATH, AT(security), 0, 0, "none: without DDS Security",
+    {"security", SETTINGS_PATH, AT(security), 0, 0, "none: without DDS Security",
      "folder of this daemon's identity, made by percuss-keys.sh"},
-    {"metrics", KIND_PATH, AT(metrics), 0, 0, "none",
+    {"metrics", SETTINGS_PATH, AT(metrics), 0, 0, "none",
      "file of counters in OpenMetrics text, written once a second"},
-    {"log_level", KIND_LEVEL, AT(log_level), 0, 0, NULL, "what is logged: this and what is worse"},
-    {"log_format", KIND_FORMAT, AT(log_format), 0, 0, NULL,
+    {"log_level", SETTINGS_LEVEL, AT(log_level), 0, 0, NULL,
+     "what is logged: this and what is worse"},
+    {"log_format", SETTINGS_FORMAT, AT(log_format), 0, 0, NULL,
      "of a line: for people, for systemd's journal, or a JSON object"},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };
@@ -154,25 +144,25 @@ static struct allowed allowed_of(const struct setting *setting)
 {
     struct allowed allowed = {""};
     switch (setting->kind) {
-    case KIND_SWITCH:
+    case SETTINGS_SWITCH:
         return (struct allowed){"true or false"};
-    case KIND_PATH:
+    case SETTINGS_PATH:
         return (struct allowed){"the path of a file"};
-    case KIND_FOLDERS:
+    case SETTINGS_FOLDERS:
         return (struct allowed){"the path of a folder, or a list of 1 to 8 of them"};
-    case KIND_PARTITION:
+    case SETTINGS_PARTITION:
         return (struct allowed){WIRE_PARTITION_RULE};
-    case KIND_LEVEL:
+    case SETTINGS_LEVEL:
         for (enum log_level level = 0; level < LEVEL_COUNT; level++)
             allow(&allowed, level, LEVEL_COUNT, log_level_name(level));
         return allowed;
-    case KIND_FORMAT:
+    case SETTINGS_FORMAT:
         for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++)
             allow(&allowed, format, LOG_FORMAT_COUNT, log_format_name(format));
         return allowed;
     default:
         snprintf(allowed.text, sizeof allowed.text, "a %snumber, %.10g to %.10g",
-                 setting->kind == KIND_WHOLE ? "whole " : "", setting->low, setting->high);
+                 setting->kind == SETTINGS_WHOLE ? "whole " : "", setting->low, setting->high);
         return allowed;
     }
 }
@@ -180,7 +170,7 @@ static struct allowed allowed_of(const struct setting *setting)
 static bool read_number(const yaml_node_t *value, const struct setting *setting, void *field)
 {
     double number;
-    bool whole = setting->kind == KIND_WHOLE;
+    bool whole = setting->kind == SETTINGS_WHOLE;
     if (!reader_number(value, &number) || number < setting->low || number > setting->high ||
         (whole && number != floor(number)))
         return false;
@@ -263,24 +253,24 @@ static enum percuss_status read_value(struct reader *reader, const yaml_node_t *
     void *field = (char *)settings + setting->offset;
     bool good = false;
     switch (setting->kind) {
-    case KIND_SWITCH:
+    case SETTINGS_SWITCH:
         good = read_switch(value, field);
         break;
-    case KIND_PATH:
+    case SETTINGS_PATH:
         return read_path(reader, value, setting, field);
-    case KIND_FOLDERS:
+    case SETTINGS_FOLDERS:
         return read_folders(reader, value, setting, field);
-    case KIND_PARTITION:
+    case SETTINGS_PARTITION:
         good = read_partition(value, field);
         break;
-    case KIND_LEVEL:
+    case SETTINGS_LEVEL:
         good = read_level(value, field);
         break;
-    case KIND_FORMAT:
+    case SETTINGS_FORMAT:
         good = read_format(value, field);
         break;
-    case KIND_WHOLE:
-    case KIND_NUMBER:
+    case SETTINGS_WHOLE:
+    case SETTINGS_NUMBER:
         good = read_number(value, setting, field);
         break;
     }
@@ -392,15 +382,15 @@ static void write_default(const struct setting *setting, struct settings_row *ro
     size_t size = sizeof row->otherwise;
     if (setting->otherwise)
         snprintf(row->otherwise, size, "%s", setting->otherwise);
-    else if (setting->kind == KIND_WHOLE)
+    else if (setting->kind == SETTINGS_WHOLE)
         snprintf(row->otherwise, size, "%u", *(const unsigned *)field);
-    else if (setting->kind == KIND_NUMBER)
+    else if (setting->kind == SETTINGS_NUMBER)
         snprintf(row->otherwise, size, "%.10g", *(const double *)field);
-    else if (setting->kind == KIND_SWITCH)
+    else if (setting->kind == SETTINGS_SWITCH)
         snprintf(row->otherwise, size, "%s", *(const bool *)field ? "true" : "false");
-    else if (setting->kind == KIND_LEVEL)
+    else if (setting->kind == SETTINGS_LEVEL)
         snprintf(row->otherwise, size, "%s", log_level_name(*(const enum log_level *)field));
-    else if (setting->kind == KIND_FORMAT)
+    else if (setting->kind == SETTINGS_FORMAT)
         snprintf(row->otherwise, size, "%s", log_format_name(*(const enum log_format *)field));
 }
 
@@ -408,7 +398,11 @@ bool settings_describe(size_t number, struct settings_row *row)
 {
     if (number >= SETTING_COUNT)
         return false;
-    *row = (struct settings_row){.path = table[number].path, .meaning = table[number].meaning};
+    *row = (struct settings_row){.path = table[number].path,
+                                 .meaning = table[number].meaning,
+                                 .kind = table[number].kind,
+                                 .low = table[number].low,
+                                 .high = table[number].high};
     snprintf(row->allowed, sizeof row->allowed, "%s", allowed_of(&table[number]).text);
     write_default(&table[number], row);
     return true;

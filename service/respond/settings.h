@@ -67,9 +67,23 @@ struct settings settings_default(void);
  * KEY: VALUE: must be ...". A relative path in it starts from the file's folder. */
 enum percuss_status settings_load(const char *path, struct settings *settings, struct fault *fault);
 
-/* A key for the reference, docs/reference/settings.md. */
+/* What the value of a key is. */
+enum settings_kind {
+    SETTINGS_WHOLE,
+    SETTINGS_NUMBER,
+    SETTINGS_SWITCH,
+    SETTINGS_PATH,
+    SETTINGS_FOLDERS, /* a path, or a list of them */
+    SETTINGS_PARTITION,
+    SETTINGS_LEVEL,
+    SETTINGS_FORMAT
+};
+
+/* A key for the reference, docs/reference/settings.md, and for the schema. */
 struct settings_row {
-    const char *path, *meaning;
+    const char *path, *meaning; /* a dot in the path separates a section from its keys */
+    enum settings_kind kind;
+    double low, high; /* of a number */
     char allowed[96], otherwise[64];
 };
 

@@ -2,17 +2,18 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Whether the pages about catalogue, settings and requests hold what the tables say that check them; with
-# --write they are made so: what stands between their two marks is replaced. And whether the shipped settings
-# show the same defaults.
-# usage: reference.sh SOURCE PRINT_REFERENCE PERCUSS [--write]
+# Whether the pages about catalogue, settings and requests, and the schemas beside the shipped files, hold what the
+# tables say that check them; with --write they are made so: what stands between a page's two marks is replaced. And
+# whether the shipped settings show the same defaults.
+# usage: reference.sh SOURCE FOLDER PERCUSS [--write]    (FOLDER: of print_reference and print_schema)
 set -eu
 [ $# -ge 3 ] || {
-    echo "usage: reference.sh SOURCE PRINT_REFERENCE PERCUSS [--write]" >&2
+    echo "usage: reference.sh SOURCE FOLDER PERCUSS [--write]" >&2
     exit 2
 }
 source_dir=$1
-print=$2
+folder=$2
+print=$folder/print_reference
 percuss=$3
 write=${4:-}
 work=$(mktemp -d)
@@ -42,6 +43,18 @@ page() {
     fi
 }
 
+# schema KIND FILE
+schema() {
+    "$folder/print_schema" "$1" >"$work/schema"
+    if [ "$write" ]; then
+        cmp -s "$work/schema" "$source_dir/$2" || cp "$work/schema" "$source_dir/$2"
+    else
+        diff -u "$source_dir/$2" "$work/schema" || failed=1
+    fi
+}
+
+schema catalogue config/catalogue.schema.json
+schema settings config/percussd.schema.json
 page docs/reference/catalogue.md "$print" catalogue markdown
 page client/man/percuss-catalogue.5 "$print" catalogue man
 page docs/reference/settings.md "$print" settings markdown

@@ -96,6 +96,11 @@ const char *units_known(size_t number, int *prefixed)
     return UNITS[number].name;
 }
 
+const char *units_prefix(size_t number)
+{
+    return number < sizeof PREFIXES / sizeof *PREFIXES ? PREFIXES[number].name : NULL;
+}
+
 static size_t units_digits(const char *text)
 {
     return strspn(text, "0123456789");

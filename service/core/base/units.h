@@ -49,4 +49,7 @@ const char *units_example(enum quantity quantity); /* "8 mm" */
  * k, M, G, T are allowed. */
 const char *units_known(size_t number, int *prefixed);
 
+/* The prefix `number`; NULL: there are no more. */
+const char *units_prefix(size_t number);
+
 #endif

@@ -4,11 +4,11 @@
 # A program reads and writes JSON by the schemas alone: a validator that is not ours agrees with what is
 # printed, and refuses the requests that percuss refuses.
 . "$(dirname "$0")/../support/lib.sh"
-python3 -c 'import jsonschema' 2>/dev/null || {
-    echo "python3-jsonschema is not there: skipped"
+python3 -c 'import jsonschema, yaml' 2>/dev/null || {
+    echo "python3-jsonschema or python3-yaml is not there: skipped"
     exit 77
 }
-for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping doctor query; do
+for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping doctor query catalogue settings; do
     "$bin/percuss" schema "$kind" >"$work/$kind.schema"
 done
 
@@ -30,6 +30,66 @@ printed() {
 example() {
     awk -v begin="$2" -v end="$3" 'index($0, end) == 1 { inside = 0 } inside { print } index($0, begin) == 1 { inside = 1 }' "$1"
 }
+
+say "shipped catalogues and settings, and those of the documents, are what their schemas say"
+expect 0 python3 "$source_dir/tests/reference/validate_yaml.py" --all "$work/catalogue.schema" "$work/settings.schema" "$source_dir"
+for file in catalogue percussd; do
+    schema=$(sed -n 's/^# yaml-language-server: $schema=//p' "$source_dir/config/$file.yaml")
+    [ -s "$source_dir/config/$schema" ] || fail "$file.yaml names no schema that is there"
+done
+
+say "percussd and the validator refuse the same catalogues and settings"
+cat >"$work/right.yaml" <<'END'
+materials:
+  brass: {young: 100 GPa, poisson: 0.34, density: 8.5 g/cm^3, yield: 200e6}
+  1050: {young: 70e9, poisson: 0.33, density: 2700 kg/m3, yield: none, loss_factor: 0}
+bodies:
+  ball: {shape: sphere, material: brass, diameter: 0.625 in}
+  arm: {shape: beam, material: 1050, section: {width: 12 mm, height: 8mm}, length: 0.2, ends: cantilever, shear_factor: cowper}
+  bar: {shape: rod, material: brass, radius: 10 mm, length: 1 m, ends: [fixed, free], lateral_inertia: true}
+friction: [{between: [brass, 1050], coefficient: 0.2}]
+contact: {compliance: half-space}
+END
+printf 'domain: 3\nworkers: 2\nlimits: {seconds: 1e3}\nlog_level: debug\ntables: [a, b]\ntables_alone: true\n' >"$work/right-settings.yaml"
+mkdir "$work/a" "$work/b"
+mkdir "$work/catalogue" "$work/settings"
+cp "$work/right.yaml" "$work/catalogue/right"
+cp "$work/right-settings.yaml" "$work/settings/right"
+local="$bin/percuss bodies --local --catalogue"
+# words
+# shellcheck disable=SC2086
+{
+    expect 0 $local "$work/catalogue/right"
+    expect 0 $local "$work/right.yaml" --config "$work/right-settings.yaml"
+}
+# refused KIND SED_SCRIPT: of the right file of that kind, changed
+refused() {
+    count=$((count + 1))
+    sed "$2" "$work/$1/right" >"$work/$1/wrong-$count"
+    ! cmp -s "$work/$1/right" "$work/$1/wrong-$count" || fail "nothing is changed by $2"
+    cp "$work/$1/wrong-$count" "$work/changed.yaml"
+    # shellcheck disable=SC2086
+    case $1 in
+    catalogue) expect 2 $local "$work/changed.yaml" ;;
+    settings) expect 2 $local "$work/right.yaml" --config "$work/changed.yaml" ;;
+    esac
+}
+count=0
+for change in 's/young: 100 GPa, //' 's/100 GPa/100 GPas/' 's/100 GPa/100 mm/' 's/100 GPa/-100 GPa/' 's/70e9/-3/' 's/0.34/0.5/' \
+    's/8mm/8 kg/' 's/8mm/8 mm thick/' 's/sphere/spere/' 's/cantilever/loose/' 's/cowper/cooper/' 's/fixed, free/fixed/' 's/true/soft/' \
+    's/shape: rod, //' 's/radius: 10 mm, //' 's/radius: 10 mm/radius: 10 mm, diameter: 20 mm/' 's/material: 1050, //' 's/length: 0.2, //' \
+    's/lateral_inertia/lateral/' 's/width: 12 mm, //' 's/coefficient: 0.2/coefficient: 11/' 's/brass, 1050/brass/' 's/half-space/soft/' \
+    's/loss_factor: 0/loss: 0/' 's/^materials/material/'; do
+    refused catalogue "$change"
+done
+for change in 's/domain: 3/domain: 231/' 's/domain: 3/domain: 1.5/' 's/workers: 2/workers: 0/' 's/workers/worker/' 's/1e3/never/' \
+    's/seconds/second/' 's/debug/loud/' 's/\[a, b\]/[]/' 's/alone: true/alone: 1/'; do
+    refused settings "$change"
+done
+for kind in catalogue settings; do
+    python3 "$source_dir/tests/reference/validate_yaml.py" "$work/$kind.schema" "$work/$kind"/* >"$work/valid"
+    [ "$(cat "$work/valid")" = "$work/$kind/right" ] || fail "valid of the wrong ones and the right one: $(cat "$work/valid")"
+done
 
 settings "store: dents.db"
 start_daemon
