@@ -55,11 +55,21 @@ static void print_moments(const char *name, double mean, double deviation)
         printf("standard deviation %.4f\n", deviation);
 }
 
+/* Whether an interval of any measured restitution is known. */
+static bool doubts_known(const struct measured_set *set)
+{
+    bool known = false;
+    for (size_t i = 0; i < set->count; i++)
+        known = known || !isnan(set->impacts[i].doubt);
+    return known;
+}
+
 static void compare_print_table(const struct comparison *comparison)
 {
-    printf("%6s %10s %12s %12s %10s %9s %9s\n", "impact", "speed m/s", "measured e", "simulated e",
-           "residual", "measured", "simulated");
-    printf("%54s %19s\n", "", "sub-impacts");
+    const bool doubts = doubts_known(comparison->set);
+    printf("%6s %10s %12s %s%12s %10s %9s %9s\n", "impact", "speed m/s", "measured e",
+           doubts ? "  +- 95 % " : "", "simulated e", "residual", "measured", "simulated");
+    printf("%*s %19s\n", doubts ? 63 : 54, "", "sub-impacts");
     /* impact by impact */
     for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
@@ -67,9 +77,11 @@ static void compare_print_table(const struct comparison *comparison)
         char count[16] = "-";
         if (!isnan(measured->sub_impacts))
             snprintf(count, sizeof count, "%.0f", measured->sub_impacts);
-        printf("%6zu %10.5g %12.4f %12.4f %10.4f %9s %9.0f\n", i + 1, measured->speed,
-               measured->restitution, twin->restitution, twin->restitution - measured->restitution,
-               count, twin->sub_impacts);
+        printf("%6zu %10.5g %12.4f ", i + 1, measured->speed, measured->restitution);
+        if (doubts)
+            printf("%8.2g ", measured_half_width(measured));
+        printf("%12.4f %10.4f %9s %9.0f\n", twin->restitution,
+               twin->restitution - measured->restitution, count, twin->sub_impacts);
     }
     /* over all of them */
     printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
@@ -101,7 +113,7 @@ static void compare_print_csv(const struct comparison *comparison, bool units)
         stdout,
         "speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
         "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
-        "simulated_first_duration,simulated_second_start,residual",
+        "simulated_first_duration,simulated_second_start,residual,restitution_half_width",
         units);
     putchar('\n');
     for (size_t i = 0; i < comparison->set->count; i++) {
@@ -110,7 +122,8 @@ static void compare_print_csv(const struct comparison *comparison, bool units)
         printf("%.17g,%.17g", measured->speed, measured->at);
         print_csv_of(measured);
         print_csv_of(twin);
-        printf(",%.17g\n", twin->restitution - measured->restitution);
+        printf(",%.17g,%.17g\n", twin->restitution - measured->restitution,
+               measured_half_width(measured));
     }
 }
 
@@ -154,6 +167,8 @@ static void compare_print_json(const struct comparison *comparison)
         json_object_set_new(object, "at", json_number(measured->at));
         json_object_set_new(object, "measured", impact_to_json(measured));
         json_object_set_new(object, "simulated", impact_to_json(&twin->impact));
+        json_object_set_new(object, "restitution_half_width",
+                            json_number(measured_half_width(measured)));
         json_object_set_new(object, "status", json_string(percuss_status_name(twin->status)));
         json_object_set_new(object, "residual",
                             json_number(twin->impact.restitution - measured->restitution));

@@ -10,7 +10,8 @@
 
 #include "impact.h"
 
-/* Parses --column into the `struct column_map` that is its input. */
+/* Parses --column, --scale, --rate, --gravity and --uncertainty into the `struct column_map` that
+ * is its input. */
 extern const struct argp measured_file_argp;
 
 /* The children of commands that ask for a scene, plot it and read files of measurements: scene,

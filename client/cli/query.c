@@ -13,6 +13,7 @@
 #include "cli.h"
 #include "csv.h"
 #include "ensemble_output.h"
+#include "fall.h"
 #include "json_writer.h"
 #include "measured_file.h"
 #include "output_file.h"
@@ -244,6 +245,7 @@ static void query_output_end(struct query_output *output)
 
 enum {
     KEY_SPEED = OPTION_OWN,
+    KEY_DROP,
     KEY_SPEED_SIGMA,
     KEY_REQUEST,
     KEY_SPECIMEN_A,
@@ -259,6 +261,7 @@ struct query {
     struct common *common;
     struct scene scene;
     double speeds[MOST_SPEEDS];
+    bool dropped[MOST_SPEEDS]; /* until all is read that one is a height */
     size_t speed_count;
     double speed_sigma; /* standard deviation of the speed; 0: not given */
     const char *file;
@@ -275,6 +278,10 @@ static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "V", 0,
      "speed of A towards B, m/s or with a unit: 0.3, 300mm/s; it and --contact-model may be given "
      "several times: an answer for each",
+     10},
+    {"drop", KEY_DROP, "H", 0,
+     "the speed of a fall from this height, m or with a unit: 300mm; as --speed it may be given "
+     "several times; --gravity says by which gravity",
      10},
     {"speed-sigma", KEY_SPEED_SIGMA, "S", 0,
      "standard deviation of the speed: also tells how the restitution spreads", 10},
@@ -329,17 +336,21 @@ static void query_check(const struct query *query, struct argp_state *state)
     if (query->csv && (query->common->json || query->speed_sigma > 0.0))
         argp_error(state, "--csv or %s, not both",
                    query->common->json ? "--json" : "--speed-sigma");
-    const struct scene_need speed = {"--speed V", query->speed_count > 0};
+    const struct scene_need speed = {"--speed V or --drop H", query->speed_count > 0};
     if (!query->file)
         scene_check_given(scene, &speed, 1, " (or a whole request: --request FILE)", state);
 }
 
-static void parse_speed(const char *text, struct query *query, struct argp_state *state)
+/* A speed, or the height of a fall. */
+static void parse_speed(const char *text, bool drop, struct query *query, struct argp_state *state)
 {
-    double speed = parse_positive_quantity("speed", text, QUANTITY_SPEED, state);
+    const char *option = drop ? "drop" : "speed";
+    double speed =
+        parse_positive_quantity(option, text, drop ? QUANTITY_LENGTH : QUANTITY_SPEED, state);
     if (query->speed_count == MOST_SPEEDS)
-        argp_error(state, "--speed: '%s': at most %d speeds; percuss sweep takes more", text,
+        argp_error(state, "--%s: '%s': at most %d speeds; percuss sweep takes more", option, text,
                    MOST_SPEEDS);
+    query->dropped[query->speed_count] = drop;
     query->speeds[query->speed_count++] = speed;
 }
 
@@ -352,6 +363,10 @@ static void read_measured(const struct query *query, struct impact_measured *mea
     struct measured_remarks remarks = {0};
     struct measured_fault fault;
     bool good = history_read(measured->file, &query->columns, &history, &remarks);
+    if (good && history.acceleration_a)
+        good =
+            remarks_wrong(&remarks, "%s: an acceleration tells no velocity to lay over a picture",
+                          measured->file);
     if (good && !history_find(&history, &impacts, &fault))
         good = remarks_wrong(&remarks, "%s: %.400s", measured->file, fault.text);
     if (good && !history_align(&history, &impacts, &measured->motion))
@@ -380,7 +395,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* the impact */
     case KEY_SPEED:
-        parse_speed(text, query, state);
+    case KEY_DROP:
+        parse_speed(text, key == KEY_DROP, query, state);
         return 0;
     case KEY_SPEED_SIGMA:
         query->speed_sigma = parse_positive_quantity("speed-sigma", text, QUANTITY_SPEED, state);
@@ -409,6 +425,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
+        for (size_t i = 0; i < query->speed_count; i++)
+            if (query->dropped[i])
+                query->speeds[i] = fall_speed(query->speeds[i], column_gravity(&query->columns));
         query_check(query, state);
         /* once all is known that is said of their columns */
         for (size_t i = 0; i < query->measured_count; i++)

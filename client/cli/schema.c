@@ -163,6 +163,8 @@ static json_t *twin_schema(void)
         VALUE("at", "number", "fraction of the length"),
         NESTED("measured", "null where it was not", measured_schema),
         NESTED("simulated", "the same of its twin", measured_schema),
+        VALUE("restitution_half_width", "number",
+              "of the 95 % interval of the measured restitution; null: not known"),
         VALUE("status", "string", "of the reply"),
         VALUE("residual", "number", "restitution simulated less measured"),
     };

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "fall.h"
 #include "measured_file.h"
 #include "output_file.h"
 #include "quantity.h"
@@ -403,13 +404,14 @@ static bool sweep_file_agrees(const char *name, const struct sweep_points *point
 }
 
 enum { MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_SPEEDS, KEY_CSV, KEY_RESUME, KEY_MEASURED };
+enum { KEY_SPEED = OPTION_OWN, KEY_DROP, KEY_SPEEDS, KEY_CSV, KEY_RESUME, KEY_MEASURED };
 enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
 
 struct sweep {
     struct common *common;
     struct scene scene;
-    double low, high;
+    double low, high;        /* m/s, or m */
+    bool drops;              /* these are heights of falls */
     bool logarithmic;        /* equal ratios between them, not equal differences */
     unsigned speed_count;    /* 0: no --speed */
     const char *speed_text;  /* of one speed alone */
@@ -427,6 +429,10 @@ static const struct argp_option options[] = {
      "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31; LO:HI:N:log: with "
      "equal ratios; one speed with --angle LO:HI:N",
      10},
+    {"drop", KEY_DROP, "LO:HI:N", 0,
+     "the speeds of falls from these heights instead, m or with units: 50mm:1m:20; --gravity says "
+     "by which gravity",
+     10},
     {"speeds", KEY_SPEEDS, "FILE.csv", 0,
      "the speeds in this file's column speed, in their order; - is standard input; --column says "
      "what it calls them",
@@ -443,13 +449,18 @@ static const struct argp_option options[] = {
     {0},
 };
 
+#define SPEEDS_EXAMPLE "0.1:0.4:31 or \"100 mm/s:400 mm/s:31\""
+
+/* LO:HI:N of speeds, or of the heights of falls. */
 static void parse_speeds(const char *text, struct sweep *sweep, struct argp_state *state)
 {
     struct quantity_fault fault;
+    const enum quantity quantity = sweep->drops ? QUANTITY_LENGTH : QUANTITY_SPEED;
+    const char *option = sweep->drops ? "drop" : "speed";
     const char *high = strchr(text, ':'), *count = high ? strchr(high + 1, ':') : NULL;
     sweep->speed_text = NULL;
     /* one alone, where angles differ: at the end that is known */
-    if (!high && quantity_read(text, strlen(text), QUANTITY_SPEED, &sweep->low, &fault) &&
+    if (!high && quantity_read(text, strlen(text), quantity, &sweep->low, &fault) &&
         sweep->low > 0.0) {
         sweep->high = sweep->low;
         sweep->speed_count = 1;
@@ -459,21 +470,19 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     size_t digits = count ? strspn(count + 1, "0123456789") : 0;
     sweep->logarithmic = count && !strcmp(count + 1 + digits, ":log");
     if (!count || (count[1 + digits] && !sweep->logarithmic))
-        argp_error(state,
-                   "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
-                   "\"100 mm/s:400 mm/s:31\", nor LO:HI:N:log",
-                   text);
-    /* two speeds, each with a unit or without */
-    if (!quantity_read(text, (size_t)(high - text), QUANTITY_SPEED, &sweep->low, &fault) ||
-        !quantity_read(high + 1, (size_t)(count - high - 1), QUANTITY_SPEED, &sweep->high, &fault))
-        argp_error(state, "--speed: '%s': LO:HI:N: %s", text, fault.text);
+        argp_error(state, "--%s: '%s' is not LO:HI:N, for example %s, nor LO:HI:N:log", option,
+                   text, sweep->drops ? "50mm:1m:20" : SPEEDS_EXAMPLE);
+    /* two numbers, each with a unit or without */
+    if (!quantity_read(text, (size_t)(high - text), quantity, &sweep->low, &fault) ||
+        !quantity_read(high + 1, (size_t)(count - high - 1), quantity, &sweep->high, &fault))
+        argp_error(state, "--%s: '%s': LO:HI:N: %s", option, text, fault.text);
     if (!(sweep->low > 0.0) || !(sweep->high >= sweep->low))
-        argp_error(state, "--speed: '%s': 0 < LO <= HI is needed, here %g to %g m/s", text,
-                   sweep->low, sweep->high);
+        argp_error(state, "--%s: '%s': 0 < LO <= HI is needed, here %g to %g %s", option, text,
+                   sweep->low, sweep->high, units_si(quantity));
     /* and how many of them */
     unsigned long points = strtoul(count + 1, NULL, 10);
     if (points < 1 || points > MOST_POINTS)
-        argp_error(state, "--speed: '%s': N of 1..%d is needed", text, MOST_POINTS);
+        argp_error(state, "--%s: '%s': N of 1..%d is needed", option, text, MOST_POINTS);
     sweep->speed_count = (unsigned)points;
 }
 
@@ -483,7 +492,7 @@ static void read_speeds(struct sweep *sweep, struct argp_state *state)
     struct measured_remarks remarks = {0};
     size_t count = 0;
     if (sweep->speed_count > 0)
-        argp_error(state, "--speed or --speeds, not both");
+        argp_error(state, "--%s or --speeds, not both", sweep->drops ? "drop" : "speed");
     bool good = measured_read_speeds(sweep->speeds_file, &sweep->measured.columns, &sweep->speeds,
                                      &count, &remarks);
     measured_file_complain("--speeds: ", &remarks);
@@ -501,9 +510,9 @@ static void check_points(struct sweep *sweep, struct argp_state *state)
     const struct scene *scene = &sweep->scene;
     if (sweep->speed_text && !scene->angle_list)
         argp_error(state,
-                   "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
-                   "\"100 mm/s:400 mm/s:31\"; one speed needs --angle LO:HI:N",
-                   sweep->speed_text);
+                   "--%s: '%s' is not LO:HI:N, for example %s; one speed needs --angle LO:HI:N",
+                   sweep->drops ? "drop" : "speed", sweep->speed_text,
+                   sweep->drops ? "50mm:1m:20" : SPEEDS_EXAMPLE);
     if (!sweep->speed_text && scene->angle_list)
         argp_error(state, "--angle: LO:HI:N: with one --speed, not with %u", sweep->speed_count);
     if (scene->angle_list && sweep->measured.count > 0)
@@ -539,6 +548,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* the speeds */
     case KEY_SPEED:
+    case KEY_DROP:
+        if (sweep->speed_count > 0 && sweep->drops != (key == KEY_DROP))
+            argp_error(state, "--speed or --drop, not both");
+        sweep->drops = key == KEY_DROP;
         parse_speeds(text, sweep, state);
         return 0;
     case KEY_SPEEDS:
@@ -598,17 +611,18 @@ static double value_at(double low, double high, unsigned count, unsigned i)
     return count == 1 ? low : low + (high - low) * i / (count - 1);
 }
 
+/* Equal differences or ratios of the speeds, or of the heights of falls; both ends as they were
+ * given. */
 static double speed_at(const struct sweep *sweep, unsigned i)
 {
     if (sweep->speeds)
         return sweep->speeds[i];
-    if (!sweep->logarithmic)
-        return value_at(sweep->low, sweep->high, sweep->count, i);
-    /* both ends as they were given */
-    return i == 0 ? sweep->low
-           : i + 1 == sweep->count
-               ? sweep->high
-               : sweep->low * pow(sweep->high / sweep->low, (double)i / (sweep->count - 1));
+    double value = value_at(sweep->low, sweep->high, sweep->count, i);
+    if (sweep->logarithmic && i > 0)
+        value = i + 1 == sweep->count
+                    ? sweep->high
+                    : sweep->low * pow(sweep->high / sweep->low, (double)i / (sweep->count - 1));
+    return sweep->drops ? fall_speed(value, column_gravity(&sweep->measured.columns)) : value;
 }
 
 /* The speed and the angle of each point. False: out of memory. */
@@ -832,7 +846,7 @@ int command_sweep(int argc, char **argv, struct common *common)
     sweep.scene.angles = ANGLES_SWEPT;
     argp_parse(&sweep_argp, argc, argv, 0, NULL, &sweep);
     if (!common->json)
-        scene_doubt_speed(sweep.high);
+        scene_doubt_speed(sweep.drops ? fall_speed(sweep.high, FALL_STANDARD_GRAVITY) : sweep.high);
     int code = open_client(common, NULL, &client);
     if (code != EXIT_ANSWERED)
         return code;

@@ -87,8 +87,9 @@ int twins_complete(const struct twins *twins, struct measured_set *set, const st
     size_t done = twin_complete(&twins->question, set, list);
     if (done == set->count)
         return EXIT_ANSWERED;
-    complain("impact %zu: a history of %s does not tell the impulse, because it vibrates; "
-             "name the compact body with --a",
-             done + 1, twins->scene->a);
+    const bool of_b = set->impacts[done].momentum_of_b == 1.0;
+    complain("impact %zu: the motion of %s does not tell the impulse, because it vibrates%s",
+             done + 1, of_b ? twins->scene->b : twins->scene->a,
+             of_b ? " or is held" : "; name the compact body with --a");
     return EXIT_USAGE;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "divide.h"
+#include "fall.h"
 
 #define PLAIN 0.0, NULL /* nothing is improbable */
 const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
@@ -30,6 +31,11 @@ const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1", PLAIN},
     [IMPACT_V_OUT] = {"v_out", false, false, QUANTITY_SPEED, 0.0, 1e6,
                       "m/s >= 0, at which the bodies separate", PLAIN},
+    [IMPACT_DROP] = {"drop", false, false, QUANTITY_LENGTH, 1e-9, 1e6, "m > 0, of the fall", 1000.0,
+                     "is a unit missing, such as mm?"},
+    [IMPACT_REBOUND] = {"rebound", false, false, QUANTITY_LENGTH, 0.0, 1e6,
+                        "m >= 0, to which A rises", PLAIN},
+    [IMPACT_BOUNCE] = {"bounce", false, false, QUANTITY_TIME, -HUGE_VAL, HUGE_VAL, "any", PLAIN},
     [IMPACT_HISTORY] = {"history", true, false, QUANTITY_NUMBER, 0.0, 0.0, "a file", PLAIN},
 };
 
@@ -40,7 +46,16 @@ const struct column_kind HISTORY_KINDS[HISTORY_COLUMNS] = {
     [HISTORY_VELOCITY_B] = {"velocity_b", false, false, QUANTITY_SPEED, ANY},
     [HISTORY_DISPLACEMENT_A] = {"displacement_a", false, false, QUANTITY_LENGTH, ANY},
     [HISTORY_DISPLACEMENT_B] = {"displacement_b", false, false, QUANTITY_LENGTH, ANY},
+    [HISTORY_ACCELERATION_A] = {"acceleration_a", false, false, QUANTITY_ACCELERATION, ANY},
+    [HISTORY_ACCELERATION_B] = {"acceleration_b", false, false, QUANTITY_ACCELERATION, ANY},
 };
+
+const char COLUMN_PIXEL[] = "px", COLUMN_FRAME[] = "frame";
+
+double column_gravity(const struct column_map *map)
+{
+    return map && map->gravity > 0.0 ? map->gravity : FALL_STANDARD_GRAVITY;
+}
 
 const struct column_kind *column_find(const char *name)
 {
@@ -85,8 +100,10 @@ static const struct column_kind *find_free(const struct column_map *map, const c
         measured_fail(
             fault,
             "'%s': '%s' is none of speed, restitution, impulse, sub_impacts, "
-            "first_impulse, first_duration, second_start, at, v_out, history, and in histories "
-            "time, velocity_a, velocity_b, displacement_a, displacement_b",
+            "first_impulse, first_duration, second_start, at, v_out, drop, rebound, bounce, "
+            "history, "
+            "and in histories time, and velocity, displacement or acceleration of a or b: "
+            "velocity_a, ...",
             text, name);
     } else if (column_map_find(map, kind)) {
         measured_fail(fault, "'%s': %s is given twice", text, name);
@@ -113,6 +130,29 @@ static bool is_of_another(const struct column_kind *kind, const char *heading,
         return true;
     }
     return false;
+}
+
+bool column_map_doubt(struct column_map *map, const char *text, struct measured_fault *fault)
+{
+    const char *equals = strchr(text, '=');
+    char name[HEADING_SIZE];
+    snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - text) : 0, text);
+    int kind = 0;
+    while (kind < IMPACT_HISTORY && strcmp(IMPACT_KINDS[kind].name, name) != 0)
+        kind++;
+    if (!equals || kind == IMPACT_HISTORY)
+        return measured_fail(fault, "'%s': NAME=VALUE is needed, of a column of impacts: drop=1mm",
+                             text);
+    double value;
+    const struct column_kind *column = &IMPACT_KINDS[kind];
+    if (column->is_count || units_read(equals + 1, column->quantity, &value) != UNITS_GOOD ||
+        !(value > 0.0))
+        return measured_fail(fault, "'%s': a number > 0 is needed%s%s", text,
+                             *units_si(column->quantity) ? ", in SI units or with its own, as "
+                                                         : "",
+                             *units_si(column->quantity) ? units_example(column->quantity) : "");
+    map->uncertainty[kind] = value;
+    return true;
 }
 
 bool column_map_add(struct column_map *map, const char *text, struct measured_fault *fault)
@@ -144,8 +184,9 @@ bool column_map_add(struct column_map *map, const char *text, struct measured_fa
 
 /* How programs of rigs write it, and how the unit table does. */
 static const char *const SPELLINGS[][2] = {
-    {"Ns", "N s"},  {"mNs", "mN s"}, {"kNs", "kN s"}, {"sec", "s"}, {"msec", "ms"},
-    {"usec", "us"}, {"1", ""},       {"-", ""},       {"--", ""},   {"\xE2\x80\x93", ""},
+    {"Ns", "N s"},   {"mNs", "mN s"},  {"kNs", "kN s"},     {"sec", "s"}, {"msec", "ms"},
+    {"usec", "us"},  {"1", ""},        {"-", ""},           {"--", ""},   {"\xE2\x80\x93", ""},
+    {"pixel", "px"}, {"pixels", "px"}, {"frames", "frame"},
 };
 
 void column_unit(const char *text, char unit[UNIT_SIZE])
@@ -184,6 +225,10 @@ enum units_problem column_number(const struct column_kind *kind, const char *num
     char text[CELL_SIZE + UNIT_SIZE + 2];
     bool is_share = kind->quantity == QUANTITY_NUMBER && !kind->is_count;
     size_t length = strnlen(number, CELL_SIZE);
+    bool counted = (kind->quantity == QUANTITY_LENGTH && !strcmp(unit, COLUMN_PIXEL)) ||
+                   (kind->quantity == QUANTITY_TIME && !strcmp(unit, COLUMN_FRAME));
+    if (counted)
+        return units_read(number, QUANTITY_NUMBER, value);
     bool marked = is_share && length > 0 && number[length - 1] == '%' && (!*unit || *unit == '%');
     length -= marked;
     /* read as a length: a per cent is 0.01 as a centimetre is 0.01 m */

@@ -29,6 +29,9 @@ enum {
     IMPACT_SECOND_START,
     IMPACT_AT,
     IMPACT_V_OUT,
+    IMPACT_DROP,
+    IMPACT_REBOUND,
+    IMPACT_BOUNCE,
     IMPACT_HISTORY,
     IMPACT_COLUMNS
 };
@@ -38,6 +41,8 @@ enum {
     HISTORY_VELOCITY_B,
     HISTORY_DISPLACEMENT_A,
     HISTORY_DISPLACEMENT_B,
+    HISTORY_ACCELERATION_A,
+    HISTORY_ACCELERATION_B,
     HISTORY_COLUMNS
 };
 enum { COLUMN_KINDS = IMPACT_COLUMNS };
@@ -52,10 +57,25 @@ struct column_choice {
     char unit[UNIT_SIZE];       /* empty: as the file says */
 };
 
+/* What is said of a file besides: the headings of its columns, and of what its instruments count.
+ * 0: not said. */
 struct column_map {
     size_t count;
     struct column_choice choices[IMPACT_COLUMNS + HISTORY_COLUMNS];
+    double scale;                       /* m of a pixel */
+    double rate;                        /* readings, or frames, a second */
+    double gravity;                     /* m/s^2 */
+    double uncertainty[IMPACT_COLUMNS]; /* half of the 95 % interval of each number of a column */
 };
+
+/* Units that `scale` and `rate` make lengths and times of. */
+extern const char COLUMN_PIXEL[], COLUMN_FRAME[]; /* "px", "frame" */
+
+/* The gravity that was stated, or else the standard one. */
+double column_gravity(const struct column_map *map);
+
+/* Takes "NAME=VALUE", half of a 95 % interval of a column of numbers. False with the reason. */
+bool column_map_doubt(struct column_map *map, const char *text, struct measured_fault *fault);
 
 /* Takes "NAME=HEADING[:UNIT]"; a heading with a colon needs one behind it as well. False with the
  * reason. */
@@ -82,8 +102,8 @@ struct column_allowed {
 };
 struct column_allowed column_allowed_unit(const struct column_kind *kind);
 
-/* Reads a number, without a mark but the decimal point, that is in this unit. A share may bear a %
- * of its own. */
+/* Reads a number, without a mark but the decimal point, that is in this unit; pixels and frames
+ * are counted. A share may bear a % of its own. */
 enum units_problem column_number(const struct column_kind *kind, const char *number,
                                  const char *unit, double *value);
 

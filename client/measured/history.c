@@ -32,17 +32,40 @@ static bool differentiate(const double *time, double *values, size_t count)
 }
 
 /* The columns that are read: time, and of each body its velocity or else its displacement;
- * HISTORY_COLUMNS: B was not measured. */
+ * HISTORY_COLUMNS: the other one was not measured. */
 struct choice {
     size_t column[3];
+    bool of_b; /* the first body is B */
     double *values[3];
 };
 
-static size_t choose(const struct table *table, size_t velocity, size_t displacement)
+static size_t choose(const struct table *table, const size_t columns[3])
 {
-    if (table_has(table, velocity))
-        return velocity;
-    return table_has(table, displacement) ? displacement : HISTORY_COLUMNS;
+    for (int i = 0; i < 3; i++)
+        if (table_has(table, columns[i]))
+            return columns[i];
+    return HISTORY_COLUMNS;
+}
+
+/* The body that is followed, and the other one, of which an acceleration tells no velocity. */
+static bool choose_bodies(const struct table *table, struct choice *choice)
+{
+    static const size_t a[] = {HISTORY_VELOCITY_A, HISTORY_DISPLACEMENT_A, HISTORY_ACCELERATION_A};
+    static const size_t b[] = {HISTORY_VELOCITY_B, HISTORY_DISPLACEMENT_B, HISTORY_ACCELERATION_B};
+    choice->column[1] = choose(table, a);
+    choice->column[2] = choose(table, b);
+    choice->of_b = choice->column[1] == HISTORY_COLUMNS;
+    if (choice->of_b)
+        choice->column[1] = choice->column[2];
+    if (choice->of_b || choice->column[2] == HISTORY_ACCELERATION_B)
+        choice->column[2] = HISTORY_COLUMNS;
+    return choice->column[1] < HISTORY_COLUMNS;
+}
+
+static double rate_of(const struct table *table)
+{
+    const struct column_map *map = table->layout.source->map;
+    return map ? map->rate : 0.0;
 }
 
 /* False with the columns that are missing. */
@@ -51,17 +74,21 @@ static bool choose_columns(const struct table *table, struct choice *choice,
 {
     const char *file = text_name(table->layout.source->file);
     char list[256];
-    bool time = table_has(table, HISTORY_TIME);
+    bool time = table_has(table, HISTORY_TIME) || rate_of(table) > 0.0;
     choice->column[0] = HISTORY_TIME;
-    choice->column[1] = choose(table, HISTORY_VELOCITY_A, HISTORY_DISPLACEMENT_A);
-    choice->column[2] = choose(table, HISTORY_VELOCITY_B, HISTORY_DISPLACEMENT_B);
-    bool motion = choice->column[1] < HISTORY_COLUMNS;
+    bool motion = choose_bodies(table, choice);
     layout_list(&table->layout, true, list, sizeof list);
     if (!time)
-        remarks_wrong(remarks, "%s: column 'time': missing; there are %s", file, list);
-    if (!motion)
-        remarks_wrong(remarks, "%s: column 'velocity_a' or 'displacement_a': missing; there are %s",
+        remarks_wrong(remarks,
+                      "%s: column 'time': missing; there are %s; --rate F says how many readings "
+                      "there are a second",
                       file, list);
+    if (!motion)
+        remarks_wrong(
+            remarks,
+            "%s: column 'velocity_a', 'displacement_a' or 'acceleration_a' (or one of b): "
+            "missing; there are %s",
+            file, list);
     return time && motion;
 }
 
@@ -74,6 +101,11 @@ static bool take_reading(struct table *table, size_t row, const struct choice *c
         if (!choice->values[i])
             continue;
         double *value = &choice->values[i][count];
+        /* readings are counted where nothing says their times */
+        if (i == 0 && !table_has(table, HISTORY_TIME)) {
+            *value = (double)row / rate_of(table);
+            continue;
+        }
         whole = table_number(table, row, choice->column[i], value, remarks) && whole;
         whole = whole && !isnan(*value);
     }
@@ -130,10 +162,30 @@ static bool make_room(const struct table *table, struct choice *choice)
     return good;
 }
 
-/* Differences of displacements; false: out of memory. */
+/* Replaces accelerations by their integral from the first on, by trapezoids. */
+static void accumulate(const double *time, double *values, size_t count)
+{
+    double velocity = 0.0, before = values[0];
+    values[0] = 0.0;
+    for (size_t i = 1; i < count; i++) {
+        velocity += 0.5 * (before + values[i]) * (time[i] - time[i - 1]);
+        before = values[i];
+        values[i] = velocity;
+    }
+}
+
+/* Velocities of displacements and accelerations; false: out of memory. */
 static bool derive(const struct choice *choice, struct history *history)
 {
     bool good = true;
+    if (choice->column[1] == HISTORY_ACCELERATION_A ||
+        choice->column[1] == HISTORY_ACCELERATION_B) {
+        history->acceleration_a = calloc(history->count, sizeof(double));
+        if (!history->acceleration_a)
+            return false;
+        memcpy(history->acceleration_a, choice->values[1], history->count * sizeof(double));
+        accumulate(history->time, choice->values[1], history->count);
+    }
     for (int i = 1; i < 3; i++) {
         size_t column = choice->column[i];
         if (column != HISTORY_DISPLACEMENT_A && column != HISTORY_DISPLACEMENT_B)
@@ -154,14 +206,19 @@ static bool derive(const struct choice *choice, struct history *history)
 static void read_table(struct table *table, struct history *history,
                        struct measured_remarks *remarks)
 {
-    struct choice choice = {{0}, {NULL, NULL, NULL}};
+    struct choice choice = {{0}, false, {NULL, NULL, NULL}};
+    const struct column_map *map = table->layout.source->map;
     const char *file = text_name(table->layout.source->file);
     size_t errors = remarks->errors;
     if (!choose_columns(table, &choice, remarks))
         return;
     bool memory = make_room(table, &choice);
     *history = (struct history){
-        .time = choice.values[0], .velocity_a = choice.values[1], .velocity_b = choice.values[2]};
+        .time = choice.values[0],
+        .velocity_a = choice.values[1],
+        .velocity_b = choice.values[2],
+        .of_b = choice.of_b,
+        .gravity = map && choice.column[1] < HISTORY_ACCELERATION_A ? map->gravity : 0.0};
     if (memory)
         history->count = take_readings(table, &choice, remarks);
     if (memory && remarks->errors == errors)
@@ -206,6 +263,7 @@ void history_free(struct history *history)
     free(history->velocity_a);
     free(history->velocity_b);
     free(history->displacement_a);
+    free(history->acceleration_a);
     *history = (struct history){0};
 }
 
@@ -213,6 +271,7 @@ void history_free(struct history *history)
 struct search {
     const struct history *history;
     double acceleration;  /* of A in flight, m/s^2 */
+    double deviation;     /* standard, of that */
     double *v;            /* [count]: A's velocity less that of the acceleration */
     size_t count, window; /* readings on each side that are compared */
     double *sum;          /* [count + 1]: running sums of v */
@@ -379,9 +438,12 @@ static double edge(const struct search *search, struct range range, double low, 
     return (far - ratio * near) / (1.0 - ratio);
 }
 
-/* A flight's line, y = at + rate (t - middle), and how readings depart from it. */
+/* A flight's line, y = at + rate (t - middle), and the standard deviations of its rate and
+ * of `at`. */
 struct line {
     double middle, at, rate;
+    double deviation, at_deviation;
+    size_t count; /* readings */
 };
 
 /* Least squares of values over time. */
@@ -509,6 +571,27 @@ static bool guess_acceleration(const struct search *search, double *acceleration
     return true;
 }
 
+/* Flights may fall by this share of another gravity than the stated one: it differs by half a per
+ * cent from place to place. */
+static const double GRAVITY_SHARE = 0.02;
+
+/* The stated gravity instead of the fitted acceleration. False with the reason if that is another
+ * one: a scale or a rate is wrong, or the body does not fall freely. */
+static bool state_gravity(struct search *search, double *acceleration, struct measured_fault *fault)
+{
+    const double stated = search->history->gravity, found = fabs(*acceleration);
+    const double allowed = fmax(ACCELERATED * search->deviation, GRAVITY_SHARE * stated);
+    if (fabs(found - stated) > allowed)
+        return measured_fail(fault,
+                             "%s: between contacts it changes its velocity by %.4g m/s^2, where "
+                             "gravity is %.4g m/s^2: are its unit, --scale and --rate right?",
+                             search->history->displacement_a ? "displacement" : "velocity", found,
+                             stated);
+    *acceleration = copysign(stated, *acceleration);
+    search->deviation = 0.0;
+    return true;
+}
+
 /* Acceleration of falling bodies, 0 where none stands out of noise and jumps. False: out of memory.
  */
 static bool find_acceleration(struct search *search, double *acceleration)
@@ -536,22 +619,97 @@ static bool find_acceleration(struct search *search, double *acceleration)
     }
     /* a change of velocity below a jump's least share is not told from its ends */
     double change = fabs(*acceleration) * 0.5 * longest;
+    search->deviation = isfinite(deviation) ? deviation : 0.0;
     if (fabs(*acceleration) <= ACCELERATED * deviation || change <= LEAST_SHARE * jump)
         *acceleration = 0.0;
     return true;
+}
+
+/* Deviation of the rate by what the readings are off it. */
+static void doubt_line(const struct search *search, const double *y, struct range flight,
+                       struct line *line)
+{
+    double left = 0.0, squares = 0.0;
+    const bool sloped = search->history->displacement_a;
+    for (size_t i = flight.first; i < flight.end; i++) {
+        double t = time_of(search, i) - line->middle;
+        left += pow(y[i] - (sloped ? line_at(line, time_of(search, i)) : line->rate), 2.0);
+        squares += t * t;
+    }
+    line->count = flight.end - flight.first;
+    double n = (double)line->count;
+    double variance = left / fmax(1.0, sloped ? n - 2.0 : n - 1.0);
+    line->deviation = sqrt(variance / (sloped ? squares : n));
+    line->at_deviation = sqrt(variance / n);
 }
 
 /* A flight's velocity, levelled: the mean of its readings, or the slope of its displacements. */
 static struct line flight_line(const struct search *search, double *levelled, struct range flight)
 {
     const double *x = search->history->displacement_a;
-    if (!x)
-        return (struct line){.rate = mean_between(search, flight.first, flight.end)};
-    for (size_t i = flight.first; i < flight.end; i++) {
+    for (size_t i = flight.first; x && i < flight.end; i++) {
         double t = time_of(search, i);
         levelled[i] = x[i] - 0.5 * search->acceleration * t * t;
     }
-    return line_of(search, levelled, flight);
+    struct line line = line_of(search, x ? levelled : search->v, flight);
+    if (!x)
+        line.rate = mean_between(search, flight.first, flight.end);
+    doubt_line(search, x ? levelled : search->v, flight, &line);
+    return line;
+}
+
+/* What the trapezoids of an integral miss: those of twice the step miss four times as much. These
+ * begin at one reading or the next; where the force sets in makes one of them better by chance. */
+static double missed_by(const struct search *search, struct range range)
+{
+    const double *a = search->history->acceleration_a, *t = search->history->time;
+    double missed = 0.0;
+    for (size_t begin = range.first; begin <= range.first + 1; begin++) {
+        double one = 0.0, two = 0.0;
+        for (size_t i = begin; i + 2 <= range.end; i += 2) {
+            one += 0.5 * ((a[i] + a[i + 1]) * (t[i + 1] - t[i]) +
+                          (a[i + 1] + a[i + 2]) * (t[i + 2] - t[i + 1]));
+            two += 0.5 * (a[i] + a[i + 2]) * (t[i + 2] - t[i]);
+        }
+        missed = fmax(missed, fabs(two - one) / 3.0);
+    }
+    return missed;
+}
+
+/* The same of an integral of accelerations, whose errors last: no mean lessens them. From flight to
+ * flight its velocity changes by what the contact between them adds; its offset is the mean of all
+ * flights' accelerations, and the deviations add up by those of one reading's. */
+static void follow_integral(struct search *search, const struct range *ranges, size_t count,
+                            struct line *lines)
+{
+    const double *a = search->history->acceleration_a;
+    double sum = 0.0, squares = 0.0, readings = 0.0;
+    for (size_t k = 0; k <= count; k++) {
+        const struct range flight = flight_of(search, ranges, count, k);
+        for (size_t i = flight.first; i < flight.end; i++) {
+            sum += a[i];
+            squares += a[i] * a[i];
+        }
+        readings += (double)(flight.end - flight.first);
+    }
+    const double mean = sum / readings, offset = mean - search->acceleration;
+    const double noise = sqrt(fmax(0.0, squares - readings * mean * mean) / (readings - 1.0));
+    const double step = noise * time_of(search, search->count - 1) / (double)(search->count - 1);
+    search->deviation = noise / sqrt(readings);
+    lines[0] = (struct line){.rate = search->v[ranges[0].first],
+                             .middle = time_of(search, ranges[0].first),
+                             .count = (size_t)readings};
+    for (size_t k = 0; k < count; k++) {
+        const struct range range = ranges[k];
+        double length = time_of(search, range.end) - time_of(search, range.first);
+        double added = search->v[range.end] - search->v[range.first] - offset * length;
+        lines[k + 1] =
+            (struct line){.rate = lines[k].rate + added,
+                          .middle = time_of(search, range.end),
+                          .deviation = hypot(hypot(lines[k].deviation, missed_by(search, range)),
+                                             step * sqrt((double)(range.end - range.first))),
+                          .count = (size_t)readings};
+    }
 }
 
 /* Root mean square of the velocities' departures from their flights' lines. */
@@ -594,6 +752,72 @@ static double touch_of(const struct search *search, struct range range, const st
     return (resolved ? contact->start : 0.5 * (contact->start + contact->end)) - time[0];
 }
 
+/* Half of the 95 % interval of (-v_after + v_before)/v_before as a share of it, of the impact from
+ * contact `first` on to `last`. With v = rate + a (touch - middle) of both flights, e = -v_after /
+ * v_before and independent errors of both rates, of a and of the touch,
+ *   de^2 v_before^2 = dr_after^2 + e^2 dr_before^2 + ((t - m_after) + e (t - m_before))^2 da^2
+ *                     + (1 + e)^2 a^2 dt^2. */
+static double doubt_of(const struct search *search, const struct history_impacts *impacts,
+                       const struct line *lines, size_t first, size_t last, double touch,
+                       double late)
+{
+    const struct line *before = &lines[first], *after = &lines[last + 1];
+    const double speed = fabs(impacts->list[first].approach), a = search->acceleration;
+    double jump = 0.0;
+    for (size_t k = first; k <= last; k++)
+        jump += impacts->list[k].jump;
+    const double freedom = fmax(1.0, fmin((double)before->count, (double)after->count) - 2.0);
+    const double student = student_quantile(0.975, freedom);
+    /* where no speed is known the jump's share alone */
+    if (!(speed > 0.0))
+        return student *
+               hypot(hypot(before->deviation, after->deviation),
+                     (after->middle - before->middle) * search->deviation) /
+               fabs(jump);
+    const double e = jump / speed - 1.0;
+    const double parts[] = {
+        after->deviation,
+        e * before->deviation,
+        ((touch - after->middle) + e * (touch - before->middle)) * search->deviation,
+        (1.0 + e) * a * late,
+    };
+    double sum = 0.0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        sum += parts[i] * parts[i];
+    return student * sqrt(sum) / fabs(jump);
+}
+
+/* Standard deviation of a touch: where displacements meet by theirs there, otherwise by that of
+ * any instant between two readings. */
+static double late_of(const struct search *search, struct range range, const struct line lines[2],
+                      double touch)
+{
+    const double *time = search->history->time;
+    double reading = (time[range.end] - time[range.first]) / (double)(range.end - range.first);
+    double late = reading / sqrt(12.0), off = 0.0;
+    if (!search->history->displacement_a)
+        return late;
+    for (int i = 0; i < 2; i++)
+        off = hypot(off,
+                    hypot(lines[i].at_deviation, (touch - lines[i].middle) * lines[i].deviation));
+    return fmin(late, off / fabs(lines[1].rate - lines[0].rate));
+}
+
+/* Of every impact that begins. */
+static void take_doubts(const struct search *search, const struct range *ranges,
+                        const struct line *lines, struct history_impacts *impacts)
+{
+    for (size_t k = 0; k < impacts->count; k++) {
+        size_t last = k;
+        while (last + 1 < impacts->count && !impacts->list[last + 1].begins)
+            last++;
+        const double touch = touch_of(search, ranges[k], &lines[k], &impacts->list[k]);
+        const double late = late_of(search, ranges[k], &lines[k], touch);
+        impacts->list[k].doubt =
+            impacts->list[k].begins ? doubt_of(search, impacts, lines, k, last, touch, late) : NAN;
+    }
+}
+
 /* The contacts one after another; `lines` has room for the flights. */
 static void take_contacts(const struct search *search, const struct range *ranges, size_t count,
                           const struct line *lines, struct history_impacts *impacts)
@@ -613,15 +837,41 @@ static void take_contacts(const struct search *search, const struct range *range
         contact->jump = sign * (high - low);
         double touch = touch_of(search, ranges[k], &lines[k], contact);
         contact->approach = sign * (low + search->acceleration * touch - b);
+        /* neither is told by an integral, nor by the body that was at rest */
+        if (search->history->acceleration_a || search->history->of_b)
+            contact->approach = 0.0;
         /* gravity has turned A that had left */
-        contact->begins =
-            k == 0 || (search->acceleration != 0.0 && left_with > 0.0 && contact->approach < 0.0);
+        contact->begins = k == 0 || (contact->approach != 0.0 && search->acceleration != 0.0 &&
+                                     left_with > 0.0 && contact->approach < 0.0);
         b = velocity_of_b(search, flight_of(search, ranges, count, k + 1));
         left_with = sign * (high + search->acceleration * (contact->end - first) - b);
     }
 }
 
-static bool measure(const struct search *search, const struct range *ranges, size_t count,
+/* The lines of all flights, less contacts whose jump of slopes does not stand out of these: a
+ * flight of a few displacements has hardly a slope, whatever its differences are. Returns how many
+ * contacts stay. */
+static size_t fit_flights(const struct search *search, struct range *ranges, size_t count,
+                          double *levelled, struct line *lines)
+{
+    for (bool whole = false; !whole;) {
+        whole = true;
+        for (size_t k = 0; k <= count; k++)
+            lines[k] = flight_line(search, levelled, flight_of(search, ranges, count, k));
+        for (size_t k = 0; search->history->displacement_a && count > 1 && k < count; k++) {
+            double jump = fabs(lines[k + 1].rate - lines[k].rate);
+            if (jump > SIGNIFICANT * hypot(lines[k].deviation, lines[k + 1].deviation))
+                continue;
+            memmove(&ranges[k], &ranges[k + 1], (count - k - 1) * sizeof *ranges);
+            count--;
+            whole = false;
+            break;
+        }
+    }
+    return count;
+}
+
+static bool measure(struct search *search, struct range *ranges, size_t count,
                     struct history_impacts *impacts, struct measured_fault *fault)
 {
     /* lines of one slope */
@@ -638,15 +888,18 @@ static bool measure(const struct search *search, const struct range *ranges, siz
     double *levelled = calloc(search->count, sizeof *levelled);
     if (!levelled)
         return measured_fail(fault, "out of memory");
-    for (size_t k = 0; k <= count; k++)
-        lines[k] = flight_line(search, levelled, flight_of(search, ranges, count, k));
+    count = fit_flights(search, ranges, count, levelled, lines);
     free(levelled);
+    if (search->history->acceleration_a)
+        follow_integral(search, ranges, count, lines);
     impacts->count = count;
+    impacts->of_b = search->history->of_b;
     impacts->noise = search->noise;
     impacts->acceleration = search->acceleration;
     take_contacts(search, ranges, count, lines, impacts);
+    take_doubts(search, ranges, lines, impacts);
     impacts->before = impacts->list[0].approach;
-    if (!(impacts->before < 0.0))
+    if (!(impacts->before < 0.0) && !search->history->acceleration_a && !search->history->of_b)
         return measured_fail(fault, "velocity_a: %g m/s before the impact: it does not approach",
                              impacts->before);
     return true;
@@ -659,6 +912,8 @@ static bool find(struct search *search, struct history_impacts *impacts,
     double acceleration;
     if (!find_acceleration(search, &acceleration))
         return measured_fail(fault, "out of memory");
+    if (search->history->gravity > 0.0 && !state_gravity(search, &acceleration, fault))
+        return false;
     level(search, acceleration);
     size_t count = find_contacts(search, ranges, fault);
     return count > 0 && measure(search, ranges, count, impacts, fault);
@@ -701,9 +956,12 @@ static void integrate(const struct history_motion *motion, const double *velocit
 bool history_align(const struct history *history, const struct history_impacts *impacts,
                    struct history_motion *motion)
 {
-    const double *measured[2] = {history->velocity_a, history->velocity_b};
+    const bool of_b = history->of_b;
+    const double *measured[2] = {of_b ? NULL : history->velocity_a,
+                                 of_b ? history->velocity_a : history->velocity_b};
     double start = impacts->list[0].start;
-    double sign = impacts->direction;
+    /* the contact pushes B the other way */
+    double sign = of_b ? -impacts->direction : impacts->direction;
     size_t count = history->count;
     *motion = (struct history_motion){.count = count, .time = calloc(count, sizeof(double))};
     bool good = motion->time;
@@ -711,7 +969,9 @@ bool history_align(const struct history *history, const struct history_impacts *
     for (size_t i = 0; good && i < count; i++)
         motion->time[i] = history->time[i] - start;
     /* the motion of each body that was measured */
-    for (int which = 0; good && which < 2 && measured[which]; which++) {
+    for (int which = 0; good && which < 2; which++) {
+        if (!measured[which])
+            continue;
         motion->velocity[which] = calloc(count, sizeof(double));
         motion->displacement[which] = calloc(count, sizeof(double));
         good = motion->velocity[which] && motion->displacement[which];

@@ -18,11 +18,16 @@ struct history {
     double *velocity_b;     /* of body B; NULL: not measured (at rest before) */
     double *displacement_a; /* m, of which velocity_a is the differences; NULL: not measured */
     bool from_displacement; /* velocities are differences of measured displacements */
+    double *acceleration_a; /* m/s^2, of which velocity_a is the integral, up to a constant and to
+                               what gravity adds; NULL: not measured */
+    bool of_b;              /* B alone was measured: it stands in A's place */
+    double gravity;         /* that was stated, m/s^2; 0: not stated */
 };
 
-/* Reads a file of columns (table.h): time and velocity_a or displacement_a, optionally velocity_b
- * or displacement_b. Up to a tenth of the rows may lack a reading; they are left out, with a note.
- * False with all that is wrong. */
+/* Reads a file of columns (table.h): time, for which the map's rate may stand, and velocity_a,
+ * displacement_a or acceleration_a, optionally velocity_b or displacement_b; or these of B alone.
+ * Up to a tenth of the rows may lack a reading; they are left out, with a note. False with all that
+ * is wrong. */
 bool history_read(const char *file, const struct column_map *map, struct history *history,
                   struct measured_remarks *remarks);
 
@@ -35,6 +40,8 @@ struct history_sub_impact {
     double jump;       /* of A's velocity, m/s */
     double approach;   /* velocity of A until it, of B taken off, m/s: < 0 */
     bool begins;       /* an impact: the first, and those that gravity brings A back to */
+    double doubt;      /* of one that begins: half of the 95 % interval of the sum of its jumps over
+                          its approach, as a share of that */
 };
 
 struct history_impacts {
@@ -43,6 +50,7 @@ struct history_impacts {
     double before;       /* the first one's approach, m/s */
     double acceleration; /* of A between contacts, m/s^2, as the instrument counts; 0: even */
     double direction;    /* +1, or -1 where the instrument counts the approach positive */
+    bool of_b;           /* as the history's */
     double noise;        /* standard deviation of one velocity reading, m/s */
 };
 
@@ -51,7 +59,8 @@ struct history_impacts {
  * flights; of displacements the flights are parabolas. Starts and ends are extrapolated with the
  * 5/2 power of time by which a Hertz contact begins to change a velocity. Directions may be either
  * way round. False with the reason: too few readings, no jump, no readings before the first,
- * flights that are no such motion. */
+ * flights that are no such motion, or fall by another gravity than the stated one. Of an
+ * acceleration, and of B alone, no approach is known: 0. */
 bool history_find(const struct history *history, struct history_impacts *impacts,
                   struct measured_fault *fault);
 
@@ -60,7 +69,7 @@ bool history_find(const struct history *history, struct history_impacts *impacts
 struct history_motion {
     size_t count;
     double *time;
-    double *velocity[2], *displacement[2]; /* of A, of B; B's NULL: not measured */
+    double *velocity[2], *displacement[2]; /* of A, of B; NULL: not measured */
 };
 
 /* By the result of history_find; displacements are the velocities' integrals. False: out of memory.

@@ -184,6 +184,18 @@ static size_t heading_matches(const struct table_source *source, const struct ce
     return matches;
 }
 
+/* By which a number in that unit, as column_number reads it, is in SI units; 0: that of pixels or
+ * frames, which nobody said. Lengths without a unit are pixels where there is a scale for them. */
+static double factor_of(const struct table_source *source, size_t kind, const char *unit)
+{
+    const struct column_map *map = source->map;
+    const double scale = map ? map->scale : 0.0, rate = map ? map->rate : 0.0;
+    const bool is_length = source->kinds[kind].quantity == QUANTITY_LENGTH;
+    if (is_length && (!strcmp(unit, COLUMN_PIXEL) || (!*unit && scale > 0.0)))
+        return scale;
+    return strcmp(unit, COLUMN_FRAME) != 0 ? 1.0 : rate > 0.0 ? 1.0 / rate : 0.0;
+}
+
 /* Sets the column's unit. False: it is none, or another one than was said before. */
 static bool set_unit(struct layout *layout, size_t kind, const char *unit, size_t line,
                      struct measured_remarks *remarks)
@@ -521,6 +533,24 @@ static bool take_units(struct layout *layout, const struct text_lines *lines,
     return good;
 }
 
+/* Whether it is said how long pixels and frames are. */
+static bool check_factors(const struct layout *layout, struct measured_remarks *remarks)
+{
+    bool good = true;
+    for (size_t k = 0; k < layout->source->kind_count; k++) {
+        const char *unit = layout->unit[k];
+        if (layout->place[k] < 0 || factor_of(layout->source, k, unit) > 0.0)
+            continue;
+        good = remarks_wrong(remarks, "%s:%zu: %s: '%s': %s is needed %s",
+                             text_name(layout->source->file), layout->line,
+                             layout->source->kinds[k].name, unit,
+                             !strcmp(unit, COLUMN_PIXEL) ? "--scale LENGTH, that of a pixel,"
+                                                         : "--rate F, frames a second,",
+                             layout_place(layout, k).text);
+    }
+    return good;
+}
+
 /* The headings stand in the line that names most columns; a comment, a line that blanks divide and
  * a single word count only where the rows below fit them. Without such a line columns are chosen by
  * their numbers. A line of units may follow. False with all that is wrong. Release with
@@ -533,6 +563,7 @@ static bool survey_layout(const struct table_source *source, const struct text_l
         return explain(layout, lines, remarks);
     bool good = heading_take(layout, remarks);
     good = take_units(layout, lines, remarks) && good;
+    good = good && check_factors(layout, remarks);
     if (!good)
         layout_free(layout);
     return good;
@@ -675,6 +706,12 @@ void table_look(struct table *table, size_t row, size_t kind, double number)
     }
 }
 
+/* Whether it bears no unit of its own. */
+static bool is_bare(const char *number)
+{
+    return !*units_number_end(number);
+}
+
 bool table_number(struct table *table, size_t row, size_t kind, double *number,
                   struct measured_remarks *remarks)
 {
@@ -694,6 +731,8 @@ bool table_number(struct table *table, size_t row, size_t kind, double *number,
     }
     if (!check_mark(table, row, kind, remarks))
         return false;
+    const double factor = factor_of(table->layout.source, kind, table->layout.unit[kind]);
+    *number *= is_bare(text) ? factor : 1.0;
     /* that can be */
     if (*number < column->low || *number > column->high ||
         (column->is_count && *number != floor(*number)))

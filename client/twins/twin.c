@@ -38,6 +38,7 @@ static struct twin twin_of(const struct percuss_reply *reply, double speed)
     struct twin twin = {.status = reply->status, .impact = measured_impact_unknown()};
     twin.impact.speed = speed;
     twin.a_is_rigid = reply->model.body_count > 0 && reply->model.bodies[0].rigid;
+    twin.b_is_rigid = reply->model.body_count > 1 && reply->model.bodies[1].rigid;
     if (reply->contact_count == 0)
         return twin;
     /* the impact as a whole */
@@ -102,15 +103,24 @@ enum percuss_result twin_ask(const struct twin_question *question, const struct 
     return result;
 }
 
+/* A wall has no mass that is known. */
+static bool is_free(const struct percuss_body *body)
+{
+    return isfinite(body->mass) && body->supports[0] == PERCUSS_SUPPORT_FREE &&
+           body->supports[1] == PERCUSS_SUPPORT_FREE;
+}
+
 size_t twin_complete(const struct twin_question *question, struct measured_set *set,
                      const struct twin *list)
 {
-    double mass = question->pair.a->mass;
     for (size_t i = 0; i < set->count; i++) {
         struct measured_impact *impact = &set->impacts[i];
-        if (!isnan(impact->momentum) && !list[i].a_is_rigid)
+        const bool of_b = impact->momentum_of_b == 1.0;
+        const struct percuss_body *body = of_b ? question->pair.b : question->pair.a;
+        const bool tells = of_b ? list[i].b_is_rigid && is_free(body) : list[i].a_is_rigid;
+        if (!isnan(impact->momentum) && !tells)
             return i;
-        measured_complete(impact, mass, list[i].inverse_mass);
+        measured_complete(impact, body->mass, list[i].inverse_mass);
     }
     return set->count;
 }

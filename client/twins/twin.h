@@ -14,7 +14,7 @@ struct twin {
     enum percuss_status status;
     struct measured_impact impact;
     double inverse_mass; /* effective, 1/kg */
-    bool a_is_rigid;
+    bool a_is_rigid, b_is_rigid;
 };
 
 /* The client to ask, and the scene. */
@@ -52,8 +52,8 @@ enum percuss_result twin_ask(const struct twin_question *question, const struct 
                              const struct twin_listener *listener, struct twin *list);
 
 /* Completes the measured impacts with the masses that the server knows. Returns the number of
- * impacts completed: fewer than all where that one's history is of a body that vibrates, which does
- * not tell the impulse. */
+ * impacts completed: fewer than all where that one's momentum is of a body that vibrates, or is
+ * held, which does not tell the impulse. */
 size_t twin_complete(const struct twin_question *question, struct measured_set *set,
                      const struct twin *list);
 

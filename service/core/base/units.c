@@ -50,6 +50,9 @@ static const struct named UNITS[] = {
     {"psi", true, {44482216152605, 64516, -5, 1, -1, -2}},
 };
 
+/* As accelerometers count. */
+static const struct unit STANDARD_GRAVITY = {980665, 1, -5, 0, 1, -2};
+
 static const struct {
     const char *name;
     int ten;
@@ -71,6 +74,7 @@ static const struct {
     [QUANTITY_SPEED] = {"speed", "m/s", "300 mm/s", 0, 1, -1},
     [QUANTITY_TIME] = {"time", "s", "20 ms", 0, 0, 1},
     [QUANTITY_IMPULSE] = {"impulse", "N s", "30 mN s", 1, 1, -1},
+    [QUANTITY_ACCELERATION] = {"acceleration", "m/s^2", "9.81 m/s^2", 0, 1, -2},
 };
 
 const char *units_name(enum quantity quantity)
@@ -275,7 +279,9 @@ enum units_problem units_read(const char *text, enum quantity quantity, double *
     if (end == text)
         return UNITS_NO_NUMBER;
     /* the unit, if there is one, and its quantity */
-    if (*name && !read_units(name, &unit))
+    if (quantity == QUANTITY_ACCELERATION && !strcmp(name, "g"))
+        unit = STANDARD_GRAVITY;
+    else if (*name && !read_units(name, &unit))
         return UNITS_UNKNOWN;
     if (*name &&
         (quantity == QUANTITY_NUMBER || unit.mass != QUANTITIES[quantity].mass ||

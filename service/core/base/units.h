@@ -19,6 +19,7 @@ enum quantity {
     QUANTITY_SPEED,
     QUANTITY_TIME,
     QUANTITY_IMPULSE,
+    QUANTITY_ACCELERATION, /* g alone is 9.80665 m/s^2, not a gram */
     QUANTITY_COUNT
 };
 

@@ -123,7 +123,7 @@ grep -q own.csv points.svg || fail "no measured points in the picture"
 expect 2 percuss query $pair --speed 0.276 --column time=Zeit --plot over.svg
 says "--column is of a file that is measured: --measured FILE is needed"
 expect 2 percuss sweep $pair --speed 0.1:0.4:4 --column speed=v0 --csv
-says "--column is of a file that is measured: --measured FILE is needed"
+says "--measured FILE or --speeds FILE is needed"
 
 say "rows that tell no impact are left out, counted and named"
 printf 'speed;restitution;mood\n0,2;0,7;\n;0,7;\n0,3;n/a;\n#NV;;x\n0,25;0,6;\n' >gaps.csv
@@ -191,10 +191,10 @@ refused() {
 say "columns and units that are not there"
 printf 'v,e\n0.2,0.7\n' | refused "standard input:1: column 'speed': missing, and all that may be there (speed, restitution, "
 says "): there are 'v', 'e'; --column NAME=HEADING says which is which"
-printf 'v,restitution\n0.2,0.7\n' | refused "standard input: column 'speed' or 'history': missing; there are 'v', 'restitution'"
+printf 'v,restitution\n0.2,0.7\n' | refused "standard input: column 'speed', 'drop' or 'history': missing; there are 'v', 'restitution'"
 printf 'v,restitution\n0.2,0.7\n' | refused "standard input:1: --column speed=w: no such column: there are 'v'" --column speed=w
 printf 'v,v\n0.2,0.7\n' | refused "columns 1 and 2 are both 'v': --column speed=NUMBER says which" --column speed=v
-printf 'speed (mph),restitution\n0.2,0.7\n' | refused "standard input:1: speed: 'mph': must be a unit of speed, as in 300 mm/s"
+printf 'speed (kn),restitution\n0.2,0.7\n' | refused "standard input:1: speed: 'kn': must be a unit of speed, as in 300 mm/s"
 printf 'speed,restitution\nknots,-\n0.2,0.7\n' | refused "standard input:2: speed: 'knots': must be a unit of speed"
 printf 'speed [m/s],restitution\n0.2,0.7\n' |
     refused "speed: 'm/s' here and 'mm/s' elsewhere: must be one unit" --column speed=speed:mm/s

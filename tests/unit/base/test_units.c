@@ -95,6 +95,7 @@ static void test_inches_and_pounds(void **state)
     bits("1 ft", QUANTITY_LENGTH, 0.3048);
     near_relative(good("30e6 psi", QUANTITY_STRESS),
                   30e6 * 0.45359237 * 9.80665 / (0.0254 * 0.0254), 2.0 * 2.3e-16);
+    bits("2 g", QUANTITY_ACCELERATION, 2.0 * 9.80665);
     near_relative(good("60 mph", QUANTITY_SPEED), 26.8224, 2.3e-16);
     near_relative(good("60 mi/h", QUANTITY_SPEED), 26.8224, 2.3e-16);
     near_relative(good("30 Mpsi", QUANTITY_STRESS), good("30e6 psi", QUANTITY_STRESS), 2.3e-16);
@@ -194,6 +195,9 @@ static void test_udunits_agrees(void **state)
                 for (enum quantity q = QUANTITY_LENGTH; q < QUANTITY_COUNT; q++) {
                     char unit[16], product[40], text[48];
                     double value;
+                    /* alone it is no gram there */
+                    if (q == QUANTITY_ACCELERATION && f == 0 && !strcmp(name, "g"))
+                        continue;
                     snprintf(unit, sizeof unit, "%s%s", prefixes[p], name);
                     snprintf(product, sizeof product, forms[f], unit);
                     snprintf(text, sizeof text, "1 %s", product);

@@ -53,7 +53,7 @@ static void says_what_is_allowed(void **state)
     bad("", "length");
     assert_string_equal(bad("3", "velocity"),
                         "quantity: 'velocity': one of number, length, stress, density, curvature, "
-                        "frequency, speed, time, impulse is allowed");
+                        "frequency, speed, time, impulse, acceleration is allowed");
 }
 
 static void names_what_is_missing(void **state)

@@ -185,9 +185,10 @@ static void refuses_files_without_impacts(void **state)
     refuse("e,\x1b[2J\n1,2\n", "'e', '?[2J'");
     refuse("speed,restitution\n", "no impacts");
     refuse("speed,restitution\n0.1,\n", "no impacts");
-    refuse("restitution\n0.5\n", "column 'speed' or 'history': missing; there are 'restitution'");
+    refuse("restitution\n0.5\n",
+           "column 'speed', 'drop' or 'history': missing; there are 'restitution'");
     refuse("speed\n0.5\n",
-           "column 'restitution', 'v_out', 'impulse' or 'history': missing; there are");
+           "column 'restitution', 'v_out', 'rebound', 'impulse' or 'history': missing; there are");
     refuse("speed,restitution,Speed\n1,0.5,1\n", "bad.csv:1: columns 1 and 3 are both 'speed'");
     struct measured_set set;
     assert_false(read_with("/nowhere/a.csv", "", &set));
@@ -213,8 +214,8 @@ static void refuses_bad_values(void **state)
            "bad.csv:3: speed: '0.3': must have one decimal mark, ',' as in line 2 (column 1)");
     refuse("speed;restitution\n1.234,5;0,5\n", "speed: '1.234,5': must be a finite number");
     /* units */
-    refuse("speed [mph],restitution\n0.1,0.5\n",
-           "bad.csv:1: speed: 'mph': must be a unit of speed, as in 300 mm/s (column 1, 'speed ");
+    refuse("speed [kn],restitution\n0.1,0.5\n",
+           "bad.csv:1: speed: 'kn': must be a unit of speed, as in 300 mm/s (column 1, 'speed ");
     refuse("speed,restitution\nfurlong,-\n0.1,0.5\n",
            "bad.csv:2: speed: 'furlong': must be a unit");
     refuse("speed [m/s],restitution\nmm/s,-\n0.1,0.5\n",
