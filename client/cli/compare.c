@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "csv.h"
@@ -21,6 +22,7 @@
 
 struct comparison {
     const struct scene *scene;
+    const char *file;
     const char *title; /* the scene in words */
     const struct measured_set *set;
     const struct twin *twins;
@@ -271,6 +273,12 @@ static void write_areas(const struct plot *plot, const struct comparison *compar
             mean, mean);
 }
 
+/* The legend says from which file the measured ones come. */
+static void write_name(const struct plot *plot, const struct comparison *comparison)
+{
+    plot_text(plot, strcmp(comparison->file, "-") ? plot_file_name(comparison->file) : "measured");
+}
+
 static void write_restitution(const struct plot *plot, const struct comparison *comparison,
                               const struct axes *axes)
 {
@@ -281,9 +289,10 @@ static void write_restitution(const struct plot *plot, const struct comparison *
     plot_range_set(plot, "yrange", &axes->areas, 0.04);
     write_areas(plot, comparison);
     fputs("plot @impacts using 1:2:(0):($3-$2) with vectors nohead lc rgb '#909090' lw 1 notitle, "
-          "'' using 1:2 with points lt 2 title 'measured', "
-          "'' using 1:3 with points lt 1 title 'simulated'",
+          "'' using 1:2 with points lt 2 title ",
           plot->script);
+    write_name(plot, comparison);
+    fputs(", '' using 1:3 with points lt 1 title 'simulated'", plot->script);
     if (comparison->differences.measured_deviation > 0.0)
         fputs(", keyentry with lines lc rgb '#808080' lw 1 title 'mean of the measured', "
               "keyentry with boxes fs solid noborder lc rgb '#d2d2d2' "
@@ -292,25 +301,28 @@ static void write_restitution(const struct plot *plot, const struct comparison *
     fputs("\nunset object\nunset label\nunset arrow\n", plot->script);
 }
 
-static void write_counts(const struct plot *plot, const struct axes *axes)
+static void write_counts(const struct plot *plot, const struct comparison *comparison,
+                         const struct axes *axes)
 {
     fputs("set origin 0,0.29\nset size 1,0.27\nset ytics 1\nset ylabel 'sub-impacts'\n",
           plot->script);
     plot_range_set(plot, "yrange", &axes->count, 0.0);
-    fputs("plot @impacts using 1:5 with points lt 2 title 'measured', "
-          "'' using 1:6 with points lt 1 pt 6 ps 1.4 title 'simulated'\nset ytics autofreq\n",
+    fputs("plot @impacts using 1:5 with points lt 2 title ", plot->script);
+    write_name(plot, comparison);
+    fputs(", '' using 1:6 with points lt 1 pt 6 ps 1.4 title 'simulated'\nset ytics autofreq\n",
           plot->script);
 }
 
-static void write_distributions(const struct plot *plot, const struct axes *axes)
+static void write_distributions(const struct plot *plot, const struct comparison *comparison,
+                                const struct axes *axes)
 {
     fputs("set origin 0,0.01\nset size 1,0.28\nset xlabel 'restitution e'\n"
           "set ylabel 'share of impacts below'\nset yrange [0:1.02]\n",
           plot->script);
     plot_range_set(plot, "xrange", &axes->restitution, MARGIN);
-    fputs("plot @impacts using 2:4 smooth cumulative with steps lt 2 title 'measured', "
-          "'' using 3:4 smooth cumulative with steps lt 1 title 'simulated'\n",
-          plot->script);
+    fputs("plot @impacts using 2:4 smooth cumulative with steps lt 2 title ", plot->script);
+    write_name(plot, comparison);
+    fputs(", '' using 3:4 smooth cumulative with steps lt 1 title 'simulated'\n", plot->script);
 }
 
 /* The restitution and the number of sub-impacts against the speed, and both empirical
@@ -331,8 +343,8 @@ static int compare_plot(const struct plot_output *output, const struct compariso
      * sub-impacts; both distributions */
     const struct axes axes = take_axes(comparison);
     write_restitution(&plot, comparison, &axes);
-    write_counts(&plot, &axes);
-    write_distributions(&plot, &axes);
+    write_counts(&plot, comparison, &axes);
+    write_distributions(&plot, comparison, &axes);
     fputs("unset multiplot\n", plot.script);
     return plot_end(&plot);
 }
@@ -436,6 +448,7 @@ static int run(const struct compare *compare, struct twins *twins, struct measur
     struct twin *list = calloc(set->count, sizeof *list);
     const struct scene_text text = scene_describe(&compare->scene, &twins->bodies);
     struct comparison comparison = {.scene = &compare->scene,
+                                    .file = compare->file,
                                     .title = text.title,
                                     .set = set,
                                     .twins = list,

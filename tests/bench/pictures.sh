@@ -18,8 +18,8 @@ draw() {
     "$percuss" "$command" --local --a steel-sphere "$@" --plot "$figures/$picture" >/dev/null
 }
 
-draw compare compare-beam.png "$measured/beam.csv" --b al-beam
-draw query histories-beam.png --b al-beam --speed 0.276 --measured "$measured/history-1.csv"
+draw compare compare-beam.png "$measured/synthetic-beam.csv" --b al-beam
+draw query histories-beam.png --b al-beam --speed 0.276 --measured "$measured/synthetic-history-1.csv"
 draw ensemble ensemble-beam.png --b al-beam --speed uniform:0.089:0.411 --samples 100000
 draw sweep restitution-rods.png --b al-rod-1 --b al-rod-2 --contact-model hertz --contact-model auto \
     --speed 0.02:0.5:49

@@ -36,7 +36,7 @@ static void put_field(FILE *file, double value, const char *format, char end)
 static void write_impacts(struct lab *lab, const char *folder)
 {
     struct measured_set set;
-    FILE *file = open_file(folder, "beam.csv");
+    FILE *file = open_file(folder, "synthetic-beam.csv");
     synthetic_measure(lab, "true-beam", IMPACTS, NOISE, 20260101, &set);
     fputs(
         "# synthetic: sphere of steel (R 15 mm) on the middle of a beam of aluminium (1 m, r 10 mm)"
@@ -78,7 +78,7 @@ static void write_history(struct lab *lab, const char *folder, int index, double
     struct solve_request request = synthetic_strike("sphere", "true-beam", speed);
     request.options.trace = true;
     lab_solve(lab, &request, &result);
-    snprintf(name, sizeof name, "history-%d.csv", index);
+    snprintf(name, sizeof name, "synthetic-history-%d.csv", index);
     FILE *file = open_file(folder, name);
     fputs("time,velocity_a\n", file);
     double end = result.window + LEAD;
@@ -100,7 +100,7 @@ static void write_rod(struct lab *lab, const char *folder, int index, double yie
     material.young = SYNTHETIC_YOUNG;
     material.yield = yield;
     snprintf(body, sizeof body, "true-rod-%d", index);
-    snprintf(name, sizeof name, "rod-%d.csv", index);
+    snprintf(name, sizeof name, "synthetic-rod-%d.csv", index);
     lab_add(lab, body, make_bar(&rod_kind, material, 0.010, 1.0));
     FILE *file = open_file(folder, name);
     fprintf(file,
@@ -134,14 +134,14 @@ int main(int argc, char **argv)
     /* as the service's own catalogue has it; the rods' files are of half-spaces */
     lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
     write_impacts(lab, argv[1]);
-    FILE *list = open_file(argv[1], "histories.csv");
-    fputs(
-        "# synthetic: velocity of the sphere, as by a vibrometer; the same rig as beam.csv; 0.276, "
-        "0.287, 0.303 m/s\nhistory\n",
-        list);
+    FILE *list = open_file(argv[1], "synthetic-histories.csv");
+    fputs("# synthetic: velocity of the sphere, as by a vibrometer; the same rig as "
+          "synthetic-beam.csv; 0.276, "
+          "0.287, 0.303 m/s\nhistory\n",
+          list);
     for (int i = 0; i < HISTORIES; i++) {
         write_history(lab, argv[1], i + 1, speeds[i]);
-        fprintf(list, "history-%d.csv\n", i + 1);
+        fprintf(list, "synthetic-history-%d.csv\n", i + 1);
     }
     fclose(list);
     lab->set.compliance = PERCUSS_COMPLIANCE_HALF_SPACE;

@@ -105,7 +105,7 @@ many_impacts() {
         --input damping@al-beam=log-normal:0.01:0.003 --half-width 0.01 --samples 2000 --json
     kept ensemble $paper al-beam --speed uniform:0.4:0.1 --samples 10
     kept ensemble $paper al-beam --speed 0.1 --input length@al-beam=1 --samples 10
-    kept compare "$source_dir/client/examples/measured/beam.csv" $paper al-beam --csv
+    kept compare "$source_dir/client/examples/measured/synthetic-beam.csv" $paper al-beam --csv
 }
 
 # the catalogue of the scenes, with that of the shipped bodies

@@ -74,7 +74,7 @@ table_1() {
 
 figure_1() {
     ask sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz --contact-model auto \
-        --speed 0.05:0.5:46 --measured "al-rod-1=$measured/rod-1.csv" --measured "al-rod-2=$measured/rod-2.csv" \
+        --speed 0.05:0.5:46 --measured "al-rod-1=$measured/synthetic-rod-1.csv" --measured "al-rod-2=$measured/synthetic-rod-2.csv" \
         --plot "$output/figure-1.png" --plot-data "$output/figure-1" >"$output/figure-1.txt"
 }
 
@@ -141,8 +141,8 @@ figure_5_row() {
 
 figure_5() {
     ask query --a steel-sphere --b al-beam --speed 0.276 --speed 0.287 --speed 0.303 \
-        --measured "$measured/history-1.csv" --measured "$measured/history-2.csv" \
-        --measured "$measured/history-3.csv" --plot "$output/figure-5.png" --plot-data "$output/figure-5" \
+        --measured "$measured/synthetic-history-1.csv" --measured "$measured/synthetic-history-2.csv" \
+        --measured "$measured/synthetic-history-3.csv" --plot "$output/figure-5.png" --plot-data "$output/figure-5" \
         --csv | awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%g", $1) } 1' >"$output/figure-5.csv"
     echo "| m/s | e | starts of sub-impacts, ms | the paper: simulated e; measured e; sub-impacts |"
     echo "|---|---|---|---|"
@@ -163,7 +163,7 @@ statistics() {
 }
 
 figure_6() {
-    ask compare "$measured/beam.csv" --a steel-sphere --b al-beam --plot "$output/figure-6.png" \
+    ask compare "$measured/synthetic-beam.csv" --a steel-sphere --b al-beam --plot "$output/figure-6.png" \
         --plot-data "$output/figure-6" >"$output/figure-6.txt"
     echo "| | mean of e | standard deviation | range |"
     echo "|---|---|---|---|"

@@ -54,7 +54,7 @@ class Compare(Beside):
             self.assertEqual((ours.residual[i], ours.status[i].name), (impact["residual"], impact["status"]))
 
     def test_as_the_program(self) -> None:
-        for file in ("beam.csv", "histories.csv"):
+        for file in ("synthetic-beam.csv", "synthetic-histories.csv"):
             expected = told("compare", str(DATA / file), "--seed", "7", "--permutations", "999")
             for client in (self.client, self.local):
                 ours = measured.compare(
@@ -64,10 +64,10 @@ class Compare(Beside):
 
     def test_columns(self) -> None:
         """What a file says, as arrays and as a frame."""
-        lines = [line for line in (DATA / "beam.csv").read_text().splitlines() if not line.startswith("#")]
+        lines = [line for line in (DATA / "synthetic-beam.csv").read_text().splitlines() if not line.startswith("#")]
         rows = list(csv.DictReader(lines))
         columns = {name: [float(row[name] or "nan") for row in rows] for name in rows[0]}
-        expected = told("compare", str(DATA / "beam.csv"), "--tolerance", "1e-4")
+        expected = told("compare", str(DATA / "synthetic-beam.csv"), "--tolerance", "1e-4")
         bodies = self.local.bodies()
         options = percuss.Options(tolerance=1e-4)
         for source in (columns, pandas.DataFrame(columns)):
@@ -137,7 +137,7 @@ class Compare(Beside):
                 measured.compare(good, *self.pair(), client, options=percuss.Options(tolerance=7.0))
         # a beam that swings does not tell its impulse by its velocity
         with self.assertRaisesRegex(percuss.InvalidArgument, "a history of al-beam does not tell the impulse"):
-            measured.compare(DATA / "histories.csv", "al-beam", "steel-sphere", self.local)
+            measured.compare(DATA / "synthetic-histories.csv", "al-beam", "steel-sphere", self.local)
 
     def pair(self) -> tuple[percuss.Body, percuss.Body]:
         bodies = self.local.bodies()
@@ -159,7 +159,7 @@ class Calibrate(Beside):
         self.assertEqual(list(ours.warnings), expected["warnings"])
 
     def test_as_the_program(self) -> None:
-        file = str(DATA / "beam.csv")
+        file = str(DATA / "synthetic-beam.csv")
         expected = told("calibrate", file, "--fit", "young:al-beam")
         for client in (self.client, self.local):
             ours = measured.calibrate(file, "steel-sphere", "al-beam", client, fit=["young@al-beam"])
@@ -171,13 +171,13 @@ class Calibrate(Beside):
         self.assertIn("young of al-beam", ours._repr_html_())
 
     def test_several_and_starts(self) -> None:
-        file = str(DATA / "beam.csv")
+        file = str(DATA / "synthetic-beam.csv")
         expected = told("calibrate", file, "--fit", "young:al-beam=71e9", "--fit", "damping:al-beam", "--noise", "0.02")
         fit: dict[str, Any] = {"young:al-beam": "71 GPa", "damping:al-beam": None}
         self.assert_as(measured.calibrate(file, "steel-sphere", "al-beam", self.local, fit=fit, noise=0.02), expected)
 
     def test_mistakes(self) -> None:
-        file = str(DATA / "beam.csv")
+        file = str(DATA / "synthetic-beam.csv")
         cases: list[tuple[Any, type[Exception], str]] = [
             (["young"], ValueError, "fit: 'young': PARAMETER:ID is allowed"),
             (["stiffness:al-beam"], ValueError, "Parameter: 'stiffness': one of YOUNG, .* is allowed"),

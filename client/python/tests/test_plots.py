@@ -176,7 +176,7 @@ class Plots(unittest.TestCase):
         self.assertEqual(axes[2].get_xlabel(), "speed")
 
     def test_comparison(self) -> None:
-        file = SOURCE / "client" / "examples" / "measured" / "beam.csv"
+        file = SOURCE / "client" / "examples" / "measured" / "synthetic-beam.csv"
         compared = measured.compare(file, "steel-sphere", "al-beam", self.local)
         above, middle, _ = self.rendered(compared.plot())
         self.drawn(above, compared.measured.restitution)

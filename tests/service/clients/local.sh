@@ -45,7 +45,7 @@ all() {
     asked "$1" sweep $paper al-rod-1 --speed 0.1:0.4:5 --csv
     asked "$1" ensemble $paper al-beam --speed uniform:0.1:0.4 --samples 300 --json --csv "$work/file.csv"
     asked "$1" ensemble $paper al-beam --speed uniform:0.4:0.1 --samples 10
-    asked "$1" compare "$source_dir/client/examples/measured/beam.csv" $paper al-beam --csv
+    asked "$1" compare "$source_dir/client/examples/measured/synthetic-beam.csv" $paper al-beam --csv
 }
 
 say "a newcomer's first command needs no daemon"

@@ -110,7 +110,7 @@ try memory 10 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" 
 say "what a server answers"
 start_daemon
 pair="--a steel-sphere --b al-beam --domain $domain"
-data=$source_dir/client/examples/measured/beam.csv
+data=$source_dir/client/examples/measured/synthetic-beam.csv
 try files 100 "$bin/percuss" query $pair --speed 0.3 --plot "$files/plot.png" --trace "$files/trace.csv"
 try files 60 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"
 try memory 8 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"

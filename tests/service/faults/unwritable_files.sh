@@ -7,7 +7,7 @@
 
 start_daemon
 pair="--a steel-sphere --b al-beam"
-data=$source_dir/client/examples/measured/beam.csv
+data=$source_dir/client/examples/measured/synthetic-beam.csv
 none=$work/none/file
 
 # refuses OPTION FILE WHY COMMAND...: before any server is asked

@@ -113,8 +113,8 @@ printed ensemble 0 ensemble --a steel-sphere --b al-beam --speed uniform:0.09:0.
 printed query 0 query --a steel-sphere --b al-rod-1 --speed 0.2 --speed 0.3 --contact-model auto --contact-model hertz
 printed sweep 0 sweep --a steel-sphere --b al-rod --speed 0.1:0.3:3
 printed sweep 0 sweep --a steel-sphere --b al-rod --b al-beam --speed 0.1:0.3:2
-printed compare 0 compare "$source_dir/client/examples/measured/beam.csv" --a steel-sphere --b al-beam
-printed calibrate 0 calibrate "$source_dir/client/examples/measured/beam.csv" --a steel-sphere --b al-beam \
+printed compare 0 compare "$source_dir/client/examples/measured/synthetic-beam.csv" --a steel-sphere --b al-beam
+printed calibrate 0 calibrate "$source_dir/client/examples/measured/synthetic-beam.csv" --a steel-sphere --b al-beam \
     --fit young:al-beam
 printed bodies 0 bodies
 printed remarks 0 bodies --check

@@ -142,7 +142,7 @@ expect 5 percuss sweep --a nobody --b al-rod --speed 0.1:0.2:2
 says "that is the catalogue $work/catalogue.yaml"
 expect 5 percuss ensemble --a nobody --b al-rod --speed uniform:0.1:0.2 --samples 4
 says "that is the catalogue $work/catalogue.yaml"
-expect 5 percuss compare "$source_dir/client/examples/measured/beam.csv" --a nobody --b al-beam
+expect 5 percuss compare "$source_dir/client/examples/measured/synthetic-beam.csv" --a nobody --b al-beam
 says "that is the catalogue $work/catalogue.yaml"
 say "who finds both asks the one up longest"
 both=0

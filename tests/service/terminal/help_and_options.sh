@@ -89,7 +89,7 @@ pair="--a steel-sphere --b al-beam"
 for arguments in "query $pair --speed 0.2 --csv" "bodies --csv" "sweep $pair --b al-rod --speed 0.1:0.2:2 --csv" \
     "ensemble $pair --speed 0.2 --input young@al-beam=uniform:69e9:71e9 --samples 20 --csv FILE" \
     "query $pair --speed 0.2 --trace FILE" \
-    "compare $source_dir/client/examples/measured/beam.csv $pair --csv"; do
+    "compare $source_dir/client/examples/measured/synthetic-beam.csv $pair --csv"; do
     for units in "" --units; do
         file=$work/with$units
         # words

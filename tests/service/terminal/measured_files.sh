@@ -15,14 +15,14 @@ rows() {
     awk -F, "$1"'
         /^#/ || !/^[0-9]/ { next }
         { print line(cell($1, 1e3), cell($2, 1), cell($3, 1), cell($4, 1e3), cell($5, 1e6), cell($6, 1e3)) }
-    ' "$data/beam.csv"
+    ' "$data/synthetic-beam.csv"
 }
 
 # number(text, factor): in another unit, with the digits that it has
 number='function number(text, factor) { return text ~ /[0-9]/ ? sprintf("%.10g", text * factor) : text }'
 comma='function comma(text) { sub(/\./, ",", text); return text }'
 
-expect 0 percuss compare "$data/beam.csv" $pair --csv
+expect 0 percuss compare "$data/synthetic-beam.csv" $pair --csv
 cp "$out" plain.csv
 
 # same [ARGUMENT...]: as the shipped file; what is told of it is left in $err
@@ -97,19 +97,19 @@ own='--column speed=v0:mm/s --column restitution=e --column sub_impacts=n --colu
 set -- --column "first_impulse=J 1:mNs" --column "first_duration=T 1:usec"
 same own.csv $own "$@"
 says "own.csv: columns that are not read: 'run', 'temperature'"
-expect 0 percuss calibrate "$data/beam.csv" $pair --fit young:al-beam
+expect 0 percuss calibrate "$data/synthetic-beam.csv" $pair --fit young:al-beam
 cp "$out" calibrated.txt
 expect 0 percuss calibrate own.csv $own "$@" $pair --fit young:al-beam
 cmp "$out" calibrated.txt || fail "another calibration"
 
 say "histories, in milliseconds and millimetres a second"
-expect 0 percuss compare "$data/histories.csv" $pair --csv
+expect 0 percuss compare "$data/synthetic-histories.csv" $pair --csv
 cp "$out" histories-plain.csv
 echo history >histories.csv
 for i in 1 2 3; do
     awk -F, "$number $comma"'
         NR == 1 { print "Zeit [ms];velocity_a [mm/s]"; next }
-        { print comma(number($1, 1e3)) ";" comma(number($2, 1e3)) }' "$data/history-$i.csv" >"history-$i.csv"
+        { print comma(number($1, 1e3)) ";" comma(number($2, 1e3)) }' "$data/synthetic-history-$i.csv" >"history-$i.csv"
     echo "history-$i.csv" >>histories.csv
 done
 expect 0 percuss compare histories.csv $pair --csv --column time=Zeit

@@ -38,8 +38,8 @@ picture() {
 }
 
 say "one impact: its bodies, what was measured, the force"
-picture impact "steel-sphere, history-2.csv|al-beam|e = 0.3276, 3 sub-impacts|contact force / N" \
-    query $pair --speed 0.287 --measured "$data/history-2.csv"
+picture impact "steel-sphere, synthetic-history-2.csv|al-beam|e = 0.3276, 3 sub-impacts|contact force / N" \
+    query $pair --speed 0.287 --measured "$data/synthetic-history-2.csv"
 head -n 1 "$work/impact/impact_1_1.csv" | grep -qx 'time,force,displacement_a,displacement_b,velocity_a,velocity_b' ||
     fail "the columns have other names"
 # SI: the peak of the first blow is 310 N, 0.1 ms after the touch
@@ -68,8 +68,8 @@ done
 
 say "several speeds beside each other, each with its measured history; several models over each other"
 picture speeds "0.276 m/s: e = 0.7102|0.303 m/s: e = 0.2455|history-1.csv|history-3.csv" query $pair \
-    --speed 0.276 --speed 0.287 --speed 0.303 --measured "$data/history-1.csv" \
-    --measured "$data/history-2.csv" --measured "$data/history-3.csv"
+    --speed 0.276 --speed 0.287 --speed 0.303 --measured "$data/synthetic-history-1.csv" \
+    --measured "$data/synthetic-history-2.csv" --measured "$data/synthetic-history-3.csv"
 picture models "steel-sphere, closed-form|al-rod-1, hertz" query --a steel-sphere --b al-rod-1 --speed 0.3 \
     --contact-model closed-form --contact-model hertz --horizon 0.002
 [ "$(ls "$work/models")" = "$(printf 'impact_1_1.csv\nimpact_1_2.csv\nplot.gp')" ] || fail "$(ls "$work/models")"
@@ -108,20 +108,20 @@ refuses() {
 refuses "--trace: one --speed and one --contact-model are needed, not 2 and 0" --speed 0.2 --speed 0.3 --trace -
 refuses "--speed-sigma: one --speed and one --contact-model are needed, not 1 and 2" --speed 0.2 --speed-sigma 0.01 \
     --contact-model hertz --contact-model auto
-refuses "--measured: one a speed at most, not 2 of 1" --speed 0.2 --measured "$data/history-1.csv" \
-    --measured "$data/history-2.csv" --plot "$work/none.pdf"
+refuses "--measured: one a speed at most, not 2 of 1" --speed 0.2 --measured "$data/synthetic-history-1.csv" \
+    --measured "$data/synthetic-history-2.csv" --plot "$work/none.pdf"
 refuses "at most 6 speeds; percuss sweep takes more" --speed 1 --speed 1 --speed 1 --speed 1 --speed 1 --speed 1 --speed 1
 
 say "restitution over speed: bodies, models, both; measured points where they belong"
 picture bodies "al-cylinder|al-half-plate-10|al-beam|beam.csv|without negligible ones" sweep --a steel-sphere \
-    --b al-cylinder --b al-half-plate-10 --b al-rod --b al-beam --speed 0.05:0.5:10 --measured "al-beam=$data/beam.csv"
+    --b al-cylinder --b al-half-plate-10 --b al-rod --b al-beam --speed 0.05:0.5:10 --measured "al-beam=$data/synthetic-beam.csv"
 picture both "al-rod-1|al-rod-2|hertz|auto|points.csv" sweep --a steel-sphere --b al-rod-1 --b al-rod-2 \
     --contact-model hertz --contact-model auto --speed 0.05:0.5:10 --measured "al-rod-2=$(
         printf 'speed,restitution\n0.02,0.9\n0.6,0.3\n' >"$work/points.csv"
         echo "$work/points.csv"
     )"
 [ "$(grep -c "title 'points.csv'" "$work/both/plot.gp")" -eq 1 ] || fail "points of one body on the other's panel"
-expect 2 percuss sweep $pair --speed 0.1:0.2:2 --measured "al-rod=$data/beam.csv" --plot "$work/none.pdf"
+expect 2 percuss sweep $pair --speed 0.1:0.2:2 --measured "al-rod=$data/synthetic-beam.csv" --plot "$work/none.pdf"
 says "a body that --b names is needed before the ="
 
 say "with friction the tangential force within its limits, the slip, and each sub-impact larger"
@@ -185,7 +185,7 @@ picture askew_groups "short, 0.3 m/s, friction 0.3|long, 0.3 m/s, friction 0.3|h
 grep -q impulse_tangential "$work/bodies/curve_1.csv" && fail "friction in a sweep without it"
 
 say "measured and simulated impacts on areas A to D, which may reach below 0"
-picture compare "measured|simulated|A to D: ± 0.5, 1, 1.5, 2 σ|share of impacts below" compare "$data/beam.csv" $pair
+picture compare "synthetic-beam.csv|simulated|A to D: ± 0.5, 1, 1.5, 2 σ|share of impacts below" compare "$data/synthetic-beam.csv" $pair
 for letter in A B C D; do
     [ "$(pdftotext "$work/compare.pdf" - | grep -c "^$letter\$")" -ge 2 ] || fail "no letters $letter"
 done
@@ -222,7 +222,7 @@ PATH=$work/empty expect 0 "$bin/percuss" query --domain "$domain" $pair --speed 
 [ "$(od -An -tx1 -N4 "$work/alone/plot.png" | tr -d ' \n')" = 89504e47 ] || fail "no picture by the script"
 
 say "the locale of C, of which the script has signs that it lacks, draws the same without a word"
-for asked in "query $pair --speed 0.287" "compare $data/beam.csv $pair" "sweep $pair --speed 0.1:0.3:3" \
+for asked in "query $pair --speed 0.287" "compare $data/synthetic-beam.csv $pair" "sweep $pair --speed 0.1:0.3:3" \
     "ensemble $pair --speed uniform:0.1:0.3 --samples 50"; do
     for locale in C.UTF-8 C; do
         (
@@ -240,7 +240,7 @@ done
 say "a folder that cannot be written is refused at once, a full disk is said"
 expect 2 percuss query $pair --speed 0.3 --plot-data "$work/none/folder" --domain 229 --timeout 0
 says "--plot-data: $work/none/folder: cannot be written: No such file or directory"
-expect 2 percuss query $pair --speed 0.3 --plot-data "$data/beam.csv" --domain 229 --timeout 0
+expect 2 percuss query $pair --speed 0.3 --plot-data "$data/synthetic-beam.csv" --domain 229 --timeout 0
 says "cannot be written: Not a directory"
 expect 2 percuss query $pair --speed 0.3 --plot-data "$work/later" --timeout 0 --horizon never
 [ ! -e "$work/later" ] || fail "an empty folder is left"

@@ -147,7 +147,7 @@ for inputs in "young@al-beam=normal:70e9:1e9 young@al-beam=normal:70GPa:1GPa" \
     # shellcheck disable=SC2086
     same "--input=${inputs% *}" "--input=${inputs#* }" ensemble $pair --speed 0.2 --samples 32 --json
 done
-beam=$source_dir/client/examples/measured/beam.csv
+beam=$source_dir/client/examples/measured/synthetic-beam.csv
 # the data are the document's; whether they determine it is not asked here
 for start in 69e9 69GPa; do
     # shellcheck disable=SC2086

@@ -12,7 +12,7 @@
 #include "check.h"
 
 #define CATALOGUE PERCUSS_SOURCE_DIR "/config/catalogue.yaml"
-#define BEAM      PERCUSS_SOURCE_DIR "/client/examples/measured/beam.csv"
+#define BEAM      PERCUSS_SOURCE_DIR "/client/examples/measured/synthetic-beam.csv"
 
 /* The steel sphere on a body of the catalogue. */
 struct rig {
