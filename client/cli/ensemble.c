@@ -32,14 +32,15 @@ enum {
     KEY_BINS,
     KEY_CSV,
     KEY_DEADLINE,
-    KEY_PROGRESS
+    KEY_PROGRESS,
+    KEY_VERBOSE = 'v'
 };
 
 struct ensemble {
     struct common *common;
     struct scene scene;
     struct percuss_ensemble_request *request;
-    bool has_speed, has_samples, model_error, progress;
+    bool has_speed, has_samples, model_error, progress, verbose;
     const char *csv; /* file; NULL: not wanted */
     struct plot_output plot;
 };
@@ -71,6 +72,10 @@ static const struct argp_option options[] = {
     {"csv", KEY_CSV, "FILE", 0, "write every sample", 15},
     {"deadline", KEY_DEADLINE, "S", 0,
      "seconds, or with a unit, after which the server answers with what it has", 15},
+    {"verbose", KEY_VERBOSE, NULL, 0,
+     "print all that is known of the distribution, not the six lines alone that say most; -v by "
+     "itself is --version",
+     14},
     {"progress", KEY_PROGRESS, NULL, 0, "show progress even if stderr is no terminal", 15},
     {0},
 };
@@ -160,6 +165,11 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
 {
     struct percuss_ensemble_request *request = ensemble->request;
     const struct scene_need speed = {"--speed DIST", ensemble->has_speed};
+    /* as of all commands */
+    if (ensemble->verbose && state->argc == 2) {
+        puts(argp_program_version);
+        exit(EXIT_SUCCESS);
+    }
     scene_check_given(&ensemble->scene, &speed, 1, "", state);
     /* --friction may stand behind --model-error */
     if (ensemble->model_error && ensemble->scene.friction > 0.0)
@@ -240,6 +250,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[2] = &ensemble->plot;
         return 0;
     /* the report of the samples */
+    case KEY_VERBOSE:
+        ensemble->verbose = true;
+        return 0;
     case KEY_QUANTILES:
         parse_quantiles(ensemble->request, text, state);
         return 0;
@@ -348,7 +361,7 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     if (ensemble->common->json)
         json_print(ensemble_to_json(&reply));
     else
-        ensemble_print_table(request, &reply);
+        ensemble_print_table(request, &reply, ensemble->verbose);
     tell_input(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         scene_explain_unknown(ensemble->common, client, &request->scene, &bodies->list);

@@ -238,8 +238,6 @@ static void print_distribution(const struct percuss_ensemble_reply *reply)
     if (varies(e)) {
         print_restitution(e);
         print_histogram(e);
-    } else {
-        print_value(e);
     }
     print_sub_impacts(reply);
     print_others(reply);
@@ -250,13 +248,98 @@ static void print_distribution(const struct percuss_ensemble_reply *reply)
     print_tangential(reply);
 }
 
+/* What most people want to know, in six lines: the mean, the spread, the numbers of sub-impacts,
+ * the largest cause, and how far the samples are to be trusted. */
+
+/* Between which quantiles most of them lie: the outermost ones. */
+static void summarize_restitution(const struct percuss_statistic *e)
+{
+    printf("  restitution  %.4f, 95 %% confidence %s\n", e->mean,
+           bounds_of(e->mean_low, e->mean_high).text);
+    printf("  spread       deviation %.4f, from %.4f to %.4f", e->standard_deviation, e->lowest,
+           e->highest);
+    const size_t last = e->quantile_count - 1;
+    if (e->quantile_count > 1)
+        printf(", %.4g %% between %.4f and %.4f",
+               100.0 * (e->probabilities[last] - e->probabilities[0]), e->quantiles[0],
+               e->quantiles[last]);
+    putchar('\n');
+}
+
+/* Shares of samples below that are told together. */
+static const double RARE = 0.01;
+
+static void summarize_sub_impacts(const struct percuss_ensemble_reply *reply)
+{
+    const double all = (double)(reply->samples - reply->refused);
+    double others = 0.0;
+    const char *before = "  sub-impacts  ";
+    for (size_t k = 0; k < reply->count_length; k++) {
+        double share = (double)reply->sub_impact_counts[k] / all;
+        if (share < RARE) {
+            others += share;
+            continue;
+        }
+        printf("%s%zu in %.3g %%", before, k, 100.0 * share);
+        before = ", ";
+    }
+    if (others > 0.0)
+        printf("%sothers in %.2g %%", before, 100.0 * others);
+    putchar('\n');
+}
+
+/* The input that explains most by itself; nothing where a single one varies. */
+static void summarize_cause(const struct percuss_ensemble_reply *reply)
+{
+    const struct percuss_sensitivity *leading = NULL;
+    for (size_t i = 0; i < reply->sensitivity_count; i++)
+        if (!leading || reply->sensitivities[i].first_order > leading->first_order)
+            leading = &reply->sensitivities[i];
+    if (!leading || isnan(leading->first_order))
+        return;
+    printf("  cause        %s%s%s: %.0f %% of the variance by itself\n", leading->input,
+           leading->body[0] ? "@" : "", leading->body, 100.0 * leading->first_order);
+}
+
+static void summarize_samples(const struct percuss_ensemble_reply *reply)
+{
+    printf("  samples      %llu in %.3g s", (unsigned long long)reply->samples,
+           reply->timing.solve);
+    if (reply->refused || reply->truncated)
+        printf(" (%llu refused, %llu truncated)", (unsigned long long)reply->refused,
+               (unsigned long long)reply->truncated);
+    if (reply->check.count > 0)
+        printf("; %.1f %% of %llu solved again are within the tolerance",
+               100.0 * reply->check.within, (unsigned long long)reply->check.count);
+    putchar('\n');
+}
+
+static void print_summary(const struct percuss_ensemble_reply *reply, bool whole)
+{
+    const struct percuss_statistic *e = &reply->statistics[0];
+    if (varies(e))
+        summarize_restitution(e);
+    else
+        print_value(e);
+    summarize_sub_impacts(reply);
+    if (varies(e))
+        summarize_cause(reply);
+    summarize_samples(reply);
+    if (!whole)
+        printf("  more         with -v: quantiles, histogram, intervals, shares of all inputs\n");
+}
+
 void ensemble_print_table(const struct percuss_ensemble_request *request,
-                          const struct percuss_ensemble_reply *reply)
+                          const struct percuss_ensemble_reply *reply, bool whole)
 {
     if (reply->statistic_count > 0) {
         const struct percuss_contact *contact = &request->scene.contacts[request->contact];
         printf("%s on %s, %s sampling\n", request->scene.bodies[contact->a].id,
                request->scene.bodies[contact->b].id, percuss_sampling_name(request->sampling));
+        print_summary(reply, whole);
+    }
+    if (reply->statistic_count > 0 && whole) {
+        putchar('\n');
         print_distribution(reply);
         print_model(reply);
         print_server_line(reply->server, reply->catalogue_revision);

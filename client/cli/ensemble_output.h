@@ -11,7 +11,7 @@
 
 /* The reply for people. */
 void ensemble_print_table(const struct percuss_ensemble_request *request,
-                          const struct percuss_ensemble_reply *reply);
+                          const struct percuss_ensemble_reply *reply, bool whole);
 
 /* The reply with the wire's names and nesting; the caller releases it. */
 json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply);

@@ -29,6 +29,12 @@ expect 0 ensemble --samples 1000 --progress --csv "$work/samples.csv"
 says "1000/1000"
 shows "restitution"
 shows "sub-impacts"
+[ "$(wc -l <"$out")" -le 7 ] || fail "more than the title and six lines"
+[ "$(sed -n 's/^  \([a-z-]*\) .*/\1/p' "$out" | tr '\n' ' ')" = "restitution spread sub-impacts cause samples more " ] ||
+    fail "not the six lines"
+expect 0 ensemble --samples 64 -v
+shows "skewness"
+[ "$(wc -l <"$out")" -gt 40 ] || fail "not all that is known"
 [ "$(wc -l <"$work/samples.csv")" -eq 1001 ] || fail "not 1000 samples in the file"
 head -n 1 "$work/samples.csv" | grep -q '^speed,restitution,' || fail "no head line"
 

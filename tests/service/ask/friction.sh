@@ -108,7 +108,7 @@ say "an ensemble of coefficients: statistics, samples and influences of the tang
 spread() {
     percuss ensemble --a ball --b beam --angle 30 "$@"
 }
-expect 0 spread --speed uniform:0.28:0.32 --input friction=log-normal:0.3:0.06 --samples 64 --csv "$work/mu.csv"
+expect 0 spread --speed uniform:0.28:0.32 --input friction=log-normal:0.3:0.06 --samples 64 --csv "$work/mu.csv" -v
 shows "of impulse_tangential_1"
 shows "  restitution_kinematic "
 head -n 1 "$work/mu.csv" | grep -q '^speed,friction,.*,status,impulse_tangential_1,impulse_tangential_2,tangential' ||
