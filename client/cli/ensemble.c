@@ -12,6 +12,7 @@
 
 #include "cli.h"
 #include "ensemble_output.h"
+#include "fold.h"
 #include "input_text.h"
 #include "json_writer.h"
 #include "output_file.h"
@@ -299,15 +300,17 @@ static void interrupt(int signal_number)
 
 static bool show_progress(void *context, const struct percuss_ensemble_progress *progress)
 {
-    enum { WIDTH = 30 };
     const struct ensemble *ensemble = context;
     if (!ensemble->progress || progress->samples == 0)
         return !interrupted;
-    fprintf(stderr, "\r[%-*.*s] %llu/%llu", WIDTH,
-            (int)(WIDTH * progress->done / progress->samples), "##############################",
-            (unsigned long long)progress->done, (unsigned long long)progress->samples);
+    char text[96];
+    int length = snprintf(text, sizeof text, " %llu/%llu", (unsigned long long)progress->done,
+                          (unsigned long long)progress->samples);
     if (!isnan(progress->half_width))
-        fprintf(stderr, "  e %.4f -+ %.4f ", progress->mean, progress->half_width);
+        snprintf(text + length, sizeof text - (size_t)length, "  e %.4f -+ %.4f ", progress->mean,
+                 progress->half_width);
+    fputc('\r', stderr);
+    fold_bar((double)progress->done / (double)progress->samples, text);
     return !interrupted;
 }
 

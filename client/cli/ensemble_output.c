@@ -13,6 +13,7 @@
 
 #include "cli.h"
 #include "csv.h"
+#include "fold.h"
 #include "json_schema.h"
 #include "json_writer.h"
 #include "others.h"
@@ -68,15 +69,18 @@ static void print_restitution(const struct percuss_statistic *e)
 
 static void print_histogram(const struct percuss_statistic *e)
 {
-    enum { WIDTH = 50 };
-    static const char bar[WIDTH + 1] = "##################################################";
+    enum { WIDEST = 50, LEAST = 4, BEFORE = 30 };
+    static const char bar[WIDEST + 1] = "##################################################";
     uint64_t most = 1;
+    /* beside the numbers, if there is room */
+    const size_t width = fold_width(), room = width > BEFORE + LEAST ? width - BEFORE : LEAST;
+    const uint64_t wide = width == 0 || room > WIDEST ? WIDEST : room;
     for (size_t i = 0; i < e->bin_count; i++)
         most = e->bin_counts[i] > most ? e->bin_counts[i] : most;
     printf("\n");
     for (size_t i = 0; i < e->bin_count; i++)
         printf("  %7.4f .. %7.4f %8llu %.*s\n", e->bin_edges[i], e->bin_edges[i + 1],
-               (unsigned long long)e->bin_counts[i], (int)(WIDTH * e->bin_counts[i] / most), bar);
+               (unsigned long long)e->bin_counts[i], (int)(wide * e->bin_counts[i] / most), bar);
 }
 
 /* Statistics without friction. */

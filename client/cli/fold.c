@@ -3,6 +3,7 @@
 
 #include "fold.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,14 +17,14 @@ enum { NARROWEST = 30, INDENT = 4 };
 /* 0: lines are left as they are */
 static size_t columns;
 
-static size_t terminal_width(void)
+static size_t terminal_width(int file)
 {
     struct winsize size = {0};
     const char *text = getenv("COLUMNS");
-    if (!isatty(STDOUT_FILENO))
+    if (!isatty(file))
         return 0;
     int given = text ? atoi(text) : 0;
-    if (given <= 0 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0)
+    if (given <= 0 && ioctl(file, TIOCGWINSZ, &size) == 0)
         given = size.ws_col;
     return given >= NARROWEST ? (size_t)given : 0;
 }
@@ -70,6 +71,14 @@ static bool put_line(const char *line, size_t length)
 {
     size_t stands_in = 0, next, indent;
     bool good = true;
+    /* blanks that would fill a line of their own, or end one, say nothing */
+    const size_t begin = strspn(line, " ");
+    while (columns > 0 && length > columns && length > begin && line[length - 1] == ' ')
+        length--;
+    if (columns > 0 && length > columns && begin >= columns && begin < length) {
+        line += begin - INDENT;
+        length -= begin - INDENT;
+    }
     while (good && columns > 0 && length > columns - stands_in) {
         size_t place = fold_place(line, length, columns - stands_in, &next, &indent);
         if (place == length)
@@ -115,13 +124,44 @@ static ssize_t write_folded(void *cookie, const char *text, size_t size)
 
 void fold_begin(void)
 {
-    columns = terminal_width();
+    columns = terminal_width(STDOUT_FILENO);
     FILE *folded =
         columns ? fopencookie(NULL, "w", (cookie_io_functions_t){.write = write_folded}) : NULL;
     if (!folded)
         return;
     setvbuf(folded, NULL, _IOLBF, BUFSIZ);
     stdout = folded;
+}
+
+size_t fold_width(void)
+{
+    return columns;
+}
+
+void fold_help(void)
+{
+    enum { ARGP_WIDTH = 79 };
+    char format[128];
+    const size_t width = terminal_width(STDOUT_FILENO);
+    if (width == 0 || width > ARGP_WIDTH)
+        return;
+    /* descriptions begin at a third of the width, behind short options or below long ones; argp
+     * keeps a column free */
+    snprintf(format, sizeof format,
+             "rmargin=%zu,short-opt-col=1,long-opt-col=3,doc-opt-col=1,opt-doc-col=%zu,"
+             "header-col=1,usage-indent=4",
+             width, width / 3);
+    setenv("ARGP_HELP_FMT", format, 0);
+}
+
+void fold_bar(double share, const char *rest)
+{
+    enum { WIDEST = 40, LEAST = 4 };
+    static const char bar[WIDEST + 1] = "########################################";
+    const size_t width = terminal_width(STDERR_FILENO), taken = strlen(rest) + sizeof "[]";
+    const size_t room = width > taken + LEAST ? width - taken : LEAST;
+    const int wide = width == 0 || room > WIDEST ? WIDEST : (int)room;
+    fprintf(stderr, "[%-*.*s]%s", wide, (int)(wide * fmin(fmax(share, 0.0), 1.0)), bar, rest);
 }
 
 void fold_end(void)

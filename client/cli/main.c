@@ -105,6 +105,7 @@ int main(int argc, char **argv)
     struct invocation invocation = {.common = {.timeout = NAN, .domain = environment_domain()}};
     environment_server(invocation.common.server);
     argp_err_exit_status = EXIT_USAGE;
+    fold_help();
     argp_parse(&main_argp, argc, argv, ARGP_IN_ORDER, NULL, &invocation);
 
     /* usage texts of a command start with this name */

@@ -16,6 +16,7 @@
 
 #include "cli.h"
 #include "fall.h"
+#include "fold.h"
 #include "measured_file.h"
 #include "output_file.h"
 #include "quantity.h"
@@ -106,14 +107,15 @@ static unsigned point_of(const struct sweep_run *run, uint64_t sequence)
 
 static void show_progress(const struct sweep_run *run, double *shown)
 {
-    enum { WIDTH = 40 };
-    unsigned done = run->first + run->answered, filled = WIDTH * done / run->count;
+    unsigned done = run->first + run->answered;
     bool ends = done == run->count;
     if (!isatty(STDERR_FILENO) || (!ends && now() < *shown + LOOK))
         return;
     *shown = now();
-    fprintf(stderr, "\r[%-*.*s] %u/%u", WIDTH, (int)filled,
-            "########################################", done, run->count);
+    char text[48];
+    snprintf(text, sizeof text, " %u/%u", done, run->count);
+    fputc('\r', stderr);
+    fold_bar((double)done / run->count, text);
     if (ends)
         fputc('\n', stderr);
 }

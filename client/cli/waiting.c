@@ -10,6 +10,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "fold.h"
+
 /* s: before that nothing is shown; between two drawings, and two looks at the server's status,
  * which comes once a second */
 static const double UNSHOWN = 1.0, REDRAW = 0.1, LOOK = 0.5;
@@ -59,20 +61,22 @@ static void look(void)
 
 static void draw(void)
 {
-    enum { WIDTH = 40 };
     const struct percuss_task *task = &waiting.task;
     bool known = !isnan(task->age);
     waiting.drawn = now();
     waiting.shown = true;
     fputs("\r\033[K", stderr);
-    if (known && task->running && !isnan(task->done))
-        fprintf(stderr, "[%-*.*s] %3.0f %%  ", WIDTH, (int)(WIDTH * fmin(task->done, 1.0)),
-                "########################################", 100.0 * task->done);
-    else if (known && !task->running)
-        fputs("waits for its turn  ", stderr);
+    char text[128] = "";
+    const bool shared = known && task->running && !isnan(task->done);
+    int length = shared ? snprintf(text, sizeof text, " %3.0f %%  ", 100.0 * task->done) : 0;
     if (waiting.what)
-        fprintf(stderr, "%zu %s  ", waiting.count, waiting.what);
-    fprintf(stderr, "%.1f s", waiting.drawn - waiting.begun);
+        length += snprintf(text + length, sizeof text - (size_t)length, "%zu %s  ", waiting.count,
+                           waiting.what);
+    snprintf(text + length, sizeof text - (size_t)length, "%.1f s", waiting.drawn - waiting.begun);
+    if (shared)
+        fold_bar(task->done, text);
+    else
+        fprintf(stderr, "%s%s", known && !task->running ? "waits for its turn  " : "", text);
 }
 
 static bool goes_on(void *context)

@@ -116,8 +116,9 @@ on_terminal() {
     shift
     script -qec "stty cols $width; $bin/percuss $* --domain $domain 2>/dev/null" /dev/null </dev/null | tr -d '\r' >"$out"
 }
-for width in 50 80; do
-    for arguments in bodies "query $pair --speed 0.3" "sweep $pair --speed 0.1:0.4:3"; do
+for width in 40 50 80; do
+    for arguments in bodies "query $pair --speed 0.3" "sweep $pair --speed 0.1:0.4:3" \
+        "compare $source_dir/client/examples/measured/synthetic-heights.csv --a steel-sphere --b steel-wall"; do
         # shellcheck disable=SC2086
         percuss $arguments >"$work/whole"
         on_terminal "$width" "$arguments"
@@ -135,3 +136,23 @@ on_terminal 50 bodies --json
 percuss bodies --json | cmp - "$out" || fail "JSON is folded"
 on_terminal 50 bodies --csv
 percuss bodies --csv | cmp - "$out" || fail "CSV is folded"
+
+say "helps and bars fit a terminal of 40 columns, but for words that are longer"
+# fits FILE WHAT
+fits() {
+    ! awk 'length($0) > 40 && $0 ~ /[^ ] +[^ ]/ { print; found = 1 } END { exit !found }' "$1" >"$work/wide" ||
+        fail "$2 is too wide: $(cat "$work/wide")"
+}
+for name in $commands; do
+    on_terminal 40 "$name" --help
+    [ "$(wc -l <"$out")" -gt 40 ] || fail "no help of $name"
+    fits "$out" "the help of $name"
+done
+on_terminal 40 ensemble $pair --speed uniform:0.1:0.4 --samples 64 --seed 7 -v
+grep -q '###' "$out" || fail "no histogram"
+fits "$out" "an ensemble"
+for arguments in "sweep $pair --speed 0.1:0.4:200" "ensemble $pair --speed uniform:0.1:0.4 --samples 2000"; do
+    script -qec "stty cols 40; $bin/percuss $arguments --domain $domain >/dev/null" "$work/typescript" </dev/null >/dev/null
+    tr '\r' '\n' <"$work/typescript" | grep '^\[' >"$work/bars" || fail "no bars of $arguments"
+    ! awk 'length($0) > 40 { found = 1 } END { exit !found }' "$work/bars" || fail "a bar is too wide: $arguments"
+done
