@@ -326,6 +326,16 @@ def damaged_cases():
     yield "two elements of a number", PLAIN + MESH[MESH.index("*ELEMENT"):], "", "element 1: is there twice"
     yield "a node that is not there", PLAIN.replace(" " + last, " 999\n", 1), "", "node 999: must be one of the file's nodes"
     yield "a node too few", PLAIN.replace(", " + last, "\n", 1), "", "has 19 nodes: must have more"
+    mixed = Body([("C3D20", brick(0.0), STEEL)] + [("C3D10", c, STEEL) for c in cut("C3D10", 10.0)])
+    kinds = mixed.lines().split("\n", 2)
+    yield "tetrahedra that meet a brick", (
+        f"*NODE\n{mixed.nodes()}*ELEMENT, TYPE=C3D20, ELSET=ALL\n{kinds[0]}\n{kinds[1]}\n*ELEMENT, TYPE=C3D10, ELSET=ALL\n"
+        f"{kinds[2]}{MATERIAL}{SECTION}"), "", "meet with a triangle on a quadrilateral: the body is cut there"
+    small = [[(10 + 5 * c[0], 5 * (j + c[1]), 5 * (k + c[2])) for c in CORNERS["C3D20"]] for j in (0, 1) for k in (0, 1)]
+    halved = Body([("C3D20", brick(0.0), STEEL)] + [("C3D20", c, STEEL) for c in small])
+    yield "bricks that meet a larger one", (
+        f"*NODE\n{halved.nodes()}*ELEMENT, TYPE=C3D20, ELSET=ALL\n{halved.lines()}{MATERIAL}{SECTION}"), "", (
+        "is a mid node of element 1 and a corner of element")
     yield "a mass below zero", PLAIN + "*MASS, ELSET=M\n-1.\n", "", "*MASS: -1: must be a finite number >= 0"
     yield "a mass on two nodes", PLAIN + "*ELEMENT, TYPE=MASS, ELSET=M\n9, 1, 2\n", "", "TYPE=MASS: must have 1 node"
     yield "nodes to be made", PLAIN + "*NGEN\n1, 9\n", "", "*NGEN: is not read"

@@ -94,9 +94,10 @@ static void place_in_cell(enum element_type type, size_t t, size_t node, double 
     double natural[3], corners[4][3];
     element_node(type, node, natural);
     if (type == ELEMENT_WEDGE15) {
+        /* along the first direction, which all boxes of a shape share: their faces fit */
         for (int k = 0; k < 2; k++)
-            at[k] = t ? 1.0 - natural[k] : natural[k];
-        at[2] = 0.5 + 0.5 * natural[2];
+            at[1 + k] = t ? 1.0 - natural[k] : natural[k];
+        at[0] = 0.5 + 0.5 * natural[2];
         return;
     }
     if (type != ELEMENT_TET10) {

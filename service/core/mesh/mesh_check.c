@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "mesh/bulk.h"
+#include "mesh/element.h"
 #include "mesh/joined.h"
 #include "model/vector.h"
 
@@ -127,6 +128,101 @@ static enum percuss_status check_same_places(const struct solid_mesh *mesh, doub
                      "their nodes, else the body is cut there; merge them (Gmsh: Coherence Mesh)",
                      pairs, one, other);
 }
+
+/* ---- seams: elements that meet without sharing a face ---- */
+
+/* three corners of an outer face, ascending: of a triangle, or of a quadrilateral */
+struct seam_corners {
+    size_t corners[3], element;
+    bool quadrilateral;
+};
+
+static int compare_seams(const void *left, const void *right)
+{
+    const struct seam_corners *a = left, *b = right;
+    for (int k = 0; k < 3; k++)
+        if (a->corners[k] != b->corners[k])
+            return a->corners[k] < b->corners[k] ? -1 : 1;
+    return (int)a->quadrilateral - (int)b->quadrilateral;
+}
+
+/* the corners of a face without one of them; `without` 3 of a triangle: none */
+static struct seam_corners corners_without(const struct surface_face *face, int without)
+{
+    struct seam_corners seam = {.element = face->element,
+                                .quadrilateral = surface_face_corners(face) == 4};
+    for (int k = 0, i = 0; k < 3; k++, i++) {
+        i += i == without;
+        seam.corners[k] = face->nodes[i];
+    }
+    for (int i = 1; i < 3; i++)
+        for (int k = i; k > 0 && seam.corners[k - 1] > seam.corners[k]; k--) {
+            size_t swap = seam.corners[k];
+            seam.corners[k] = seam.corners[k - 1];
+            seam.corners[k - 1] = swap;
+        }
+    return seam;
+}
+
+/* A triangle of the surface whose corners are all a quadrilateral's lies on it: the body is cut
+ * there, as where tetrahedra meet bricks. */
+static enum percuss_status check_triangles(const struct solid_mesh *mesh,
+                                           const struct surface *surface, struct fault *fault)
+{
+    struct seam_corners *all = malloc((4 * surface->face_count + 1) * sizeof *all);
+    enum percuss_status status = PERCUSS_OK;
+    size_t count = 0;
+    if (!all)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu faces: out of memory", surface->face_count);
+    for (size_t f = 0; f < surface->face_count; f++) {
+        const struct surface_face *face = &surface->faces[f];
+        for (int i = surface_face_corners(face) == 4 ? 0 : 3; i < 4; i++)
+            all[count++] = corners_without(face, i);
+    }
+    qsort(all, count, sizeof *all, compare_seams);
+    for (size_t i = 1; i < count && status == PERCUSS_OK; i++)
+        if (!all[i - 1].quadrilateral && all[i].quadrilateral &&
+            memcmp(all[i - 1].corners, all[i].corners, sizeof all[i].corners) == 0)
+            status = fault_set(
+                fault, PERCUSS_BAD_REQUEST,
+                "elements %zu and %zu meet with a triangle on a quadrilateral: the body is cut "
+                "there: must share whole faces: mesh it with elements of one kind, or wedges the "
+                "other way",
+                mesh->element_labels[all[i - 1].element], mesh->element_labels[all[i].element]);
+    free(all);
+    return status;
+}
+
+/* A node that is a corner of one element and a mid node of another one hangs between its corners,
+ * as where elements of half the size begin. */
+static enum percuss_status check_hanging(const struct solid_mesh *mesh, struct fault *fault)
+{
+    size_t *corner_of = malloc((mesh->node_count + 1) * sizeof *corner_of);
+    enum percuss_status status = PERCUSS_OK;
+    if (!corner_of)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu nodes: out of memory", mesh->node_count);
+    for (size_t i = 0; i < mesh->node_count; i++)
+        corner_of[i] = SIZE_MAX;
+    for (size_t e = 0; e < mesh->element_count; e++)
+        for (size_t i = 0; i < element_corner_count(mesh->types[e]); i++)
+            corner_of[mesh->nodes[mesh->first[e] + i]] = e;
+    for (size_t e = 0; e < mesh->element_count && status == PERCUSS_OK; e++)
+        for (size_t i = mesh->first[e] + element_corner_count(mesh->types[e]);
+             i < mesh->first[e + 1] && status == PERCUSS_OK; i++) {
+            size_t node = mesh->nodes[i];
+            if (corner_of[node] != SIZE_MAX)
+                status = fault_set(
+                    fault, PERCUSS_BAD_REQUEST,
+                    "node %zu is a mid node of element %zu and a corner of element %zu: elements "
+                    "must share whole faces: mesh the whole at once",
+                    mesh->labels[node], mesh->element_labels[e],
+                    mesh->element_labels[corner_of[node]]);
+        }
+    free(corner_of);
+    return status;
+}
+
+/* ---- pieces ---- */
 
 /* counts elements outside the first one's piece, in `parent`; *example is the first of them */
 static size_t count_apart(size_t *parent, size_t count, size_t *example)
@@ -259,6 +355,10 @@ enum percuss_status mesh_check(const struct solid_mesh *mesh, const struct surfa
     enum percuss_status status = check_shapes(mesh, findings, fault);
     if (status == PERCUSS_OK)
         status = check_same_places(mesh, surface->size, fault);
+    if (status == PERCUSS_OK)
+        status = check_hanging(mesh, fault);
+    if (status == PERCUSS_OK)
+        status = check_triangles(mesh, surface, fault);
     if (status == PERCUSS_OK)
         status = check_pieces(mesh, fault);
     if (status != PERCUSS_OK)

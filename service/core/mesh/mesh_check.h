@@ -19,9 +19,9 @@ struct mesh_findings {
 };
 
 /* PERCUSS_BAD_REQUEST: inverted elements (det J <= 0 at a point of quadrature or a node), duplicate
- * nodes, separate parts, no elements; the message has their number, an example and the remedy.
- * `surface` is that of surface_make; after surface_fit a remark tells of straight-sided elements on
- * curved ground. */
+ * nodes, elements that meet without sharing a face, separate parts, no elements; the message has
+ * their number, an example and the remedy. `surface` is that of surface_make; after surface_fit a
+ * remark tells of straight-sided elements on curved ground. */
 enum percuss_status mesh_check(const struct solid_mesh *mesh, const struct surface *surface,
                                struct mesh_findings *findings, struct fault *fault);
 

@@ -72,6 +72,7 @@ static void end_is_that_of_the_axisymmetric_solution(void **state)
         size_t along;
     } CASES[] = {{ELEMENT_HEX27, 0.3, 2.0, 6},
                  {ELEMENT_HEX20, 0.33, 10.0, 24},
+                 {ELEMENT_WEDGE15, 0.3, 2.0, 6},
                  {ELEMENT_TET10, 0.0, 3.0, 6}};
     for (size_t i = 0; i < COUNT(CASES); i++) {
         struct flexed flexed;
