@@ -74,24 +74,73 @@ bool sparse_from_entries(struct sparse *matrix, size_t n, size_t count,
     return fine;
 }
 
-void sparse_multiply(const struct sparse *matrix, size_t count, const double *x, double *y)
+/* y = A x for one vector */
+static void multiply_one(const struct sparse *matrix, const double *x, double *y)
+{
+    memset(y, 0, matrix->n * sizeof *y);
+    for (size_t i = 0; i < matrix->n; i++) {
+        double sum = 0.0, here = x[i];
+        size_t p = matrix->start[i], end = matrix->start[i + 1];
+        /* the diagonal once, other entries for both triangles */
+        if (p < end && matrix->column[p] == i)
+            sum = matrix->value[p++] * here;
+        for (; p < end; p++) {
+            size_t j = matrix->column[p];
+            sum += matrix->value[p] * x[j];
+            y[j] += matrix->value[p] * here;
+        }
+        y[i] += sum;
+    }
+}
+
+enum { MULTIPLY_TOGETHER = 8 };
+
+/* The same, to the last bit, for MULTIPLY_TOGETHER vectors: the matrix comes from memory once. x
+ * and y of one row lie side by side in `both`, [n][2][MULTIPLY_TOGETHER]. */
+static void multiply_together(const struct sparse *matrix, const double *x, double *y,
+                              double (*both)[2][MULTIPLY_TOGETHER])
 {
     size_t n = matrix->n;
-    memset(y, 0, count * n * sizeof *y);
-    for (size_t c = 0; c < count; c++, x += n, y += n)
-        for (size_t i = 0; i < n; i++) {
-            double sum = 0.0, here = x[i];
-            size_t p = matrix->start[i], end = matrix->start[i + 1];
-            /* the diagonal once, other entries for both triangles */
-            if (p < end && matrix->column[p] == i)
-                sum = matrix->value[p++] * here;
-            for (; p < end; p++) {
-                size_t j = matrix->column[p];
-                sum += matrix->value[p] * x[j];
-                y[j] += matrix->value[p] * here;
-            }
-            y[i] += sum;
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < MULTIPLY_TOGETHER; c++) {
+            both[i][0][c] = x[c * n + i];
+            both[i][1][c] = 0.0;
         }
+    for (size_t i = 0; i < n; i++) {
+        double sum[MULTIPLY_TOGETHER] = {0.0}, here[MULTIPLY_TOGETHER];
+        size_t p = matrix->start[i], end = matrix->start[i + 1];
+        memcpy(here, both[i][0], sizeof here);
+        if (p < end && matrix->column[p] == i) {
+            for (size_t c = 0; c < MULTIPLY_TOGETHER; c++)
+                sum[c] = matrix->value[p] * here[c];
+            p++;
+        }
+        for (; p < end; p++) {
+            double value = matrix->value[p], (*row)[MULTIPLY_TOGETHER] = both[matrix->column[p]];
+            for (size_t c = 0; c < MULTIPLY_TOGETHER; c++) {
+                sum[c] += value * row[0][c];
+                row[1][c] += value * here[c];
+            }
+        }
+        for (size_t c = 0; c < MULTIPLY_TOGETHER; c++)
+            both[i][1][c] += sum[c];
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < MULTIPLY_TOGETHER; c++)
+            y[c * n + i] = both[i][1][c];
+}
+
+void sparse_multiply(const struct sparse *matrix, size_t count, const double *x, double *y)
+{
+    size_t n = matrix->n, c = 0;
+    /* without memory for it, one by one */
+    double(*both)[2][MULTIPLY_TOGETHER] =
+        count >= MULTIPLY_TOGETHER ? malloc(n * sizeof *both) : NULL;
+    for (; both && c + MULTIPLY_TOGETHER <= count; c += MULTIPLY_TOGETHER)
+        multiply_together(matrix, x + c * n, y + c * n, both);
+    free(both);
+    for (; c < count; c++)
+        multiply_one(matrix, x + c * n, y + c * n);
 }
 
 double sparse_product(const struct sparse *matrix, const double *x, const double *y)

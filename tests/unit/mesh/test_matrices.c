@@ -51,6 +51,17 @@ static void check_energies(enum element_type type)
     for (size_t i = 0; i < n; i++)
         work += forces[n + i] * strained[i];
     near_relative(work, energy, 1e-12);
+    /* many at once are the same to the last bit as each by itself */
+    enum { MANY = 11 };
+    double *many = calloc(2 * MANY * n, sizeof *many);
+    for (size_t i = 0; i < MANY * n; i++)
+        many[i] = (double)(i % 7) * strained[i % n] + turned[i % n];
+    sparse_multiply(&matrices.stiffness, MANY, many, many + MANY * n);
+    for (size_t c = 0; c < MANY; c++) {
+        sparse_multiply(&matrices.stiffness, 1, many + c * n, forces);
+        assert_memory_equal(forces, many + (MANY + c) * n, n * sizeof *forces);
+    }
+    free(many);
     free(turned);
     free(strained);
     free(moved);
