@@ -82,26 +82,36 @@ static struct dense basis_of(const struct lanczos *state)
     return (struct dense){state->n, state->size, state->basis};
 }
 
-/* Adds the last products with the newest block to its own place in T. */
-static void note_products(struct lanczos *state)
+/* The vectors of the basis that A joins to its next block, but for rounding: the last two blocks. */
+static struct dense joined_of(const struct lanczos *state)
+{
+    size_t most = 2 * LANCZOS_BLOCK, count = state->size < most ? state->size : most;
+    return (struct dense){state->n, count, state->basis + (state->size - count) * state->n};
+}
+
+/* Adds the last products, with `count` vectors up to the newest, to the newest block's own place in
+ * T. */
+static void note_products(struct lanczos *state, size_t count)
 {
     size_t newest = state->size - LANCZOS_BLOCK;
     for (size_t j = 0; j < LANCZOS_BLOCK; j++)
         for (size_t i = 0; i < LANCZOS_BLOCK; i++)
             state->projection[(newest + j) * state->room + newest + i] +=
-                state->products[j * state->size + newest + i];
+                state->products[j * count + count - LANCZOS_BLOCK + i];
 }
 
-/* Orthogonal to rigid motions and to all vectors so far, twice: one pass loses digits by
- * cancellation. */
-static void orthogonalise(struct lanczos *state, size_t first, size_t count, bool note)
+/* Orthogonal to rigid motions and to all vectors so far, in two passes, as one loses digits by
+ * cancellation. With `noted`, A times the newest block, the first pass takes out what that is made
+ * of, and there is nothing left in the second one but rounding. */
+static void orthogonalise(struct lanczos *state, size_t first, size_t count, bool noted)
 {
     for (int pass = 0; pass < 2; pass++) {
+        struct dense set = noted && pass == 0 ? joined_of(state) : basis_of(state);
+        /* both sets are orthogonal to each other: one product with M serves them */
         take_out(state, state->input->rigid, first, count);
-        refresh(state, first, count);
-        take_out(state, basis_of(state), first, count);
-        if (note)
-            note_products(state);
+        take_out(state, set, first, count);
+        if (noted)
+            note_products(state, set.count);
         refresh(state, first, count);
     }
 }
