@@ -57,7 +57,7 @@ static enum percuss_status make(char **arguments, struct patched *all, struct fa
         status =
             rigid_modes_make(&all->mesh, &all->matrices, scale, &rigid_count, &all->rigid, fault);
     if (!status)
-        status = factor_analyse(&all->matrices, FACTOR_POSITIVE, &all->factor, fault);
+        status = factor_analyse(&all->matrices, FACTOR_POSITIVE, NULL, &all->factor, fault);
     if (!status)
         status = factor_compute(all->factor, SHIFT * scale, fault);
     if (status)

@@ -11,7 +11,7 @@
 enum { ERRORS = 1, DIAGNOSTICS = 2, GLOBAL = 3, LEVEL = 4 };
 enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14 };
 enum { INITIALISE = -1, FINISH = -2, ANALYSE = 1, FACTOR = 2, SOLVE = 3 };
-enum { SCOTCH = 3 };
+enum { GIVEN = 1, SCOTCH = 3 };
 enum { ANY_PROCESS = -987654, OFF = -1 };
 
 struct factor {
@@ -84,7 +84,8 @@ static bool place_entries(struct factor *factor)
 }
 
 enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_kind kind,
-                                   struct factor **factor, struct fault *fault)
+                                   const struct factor *like, struct factor **factor,
+                                   struct fault *fault)
 {
     *factor = NULL;
     if (matrices->stiffness.n == 0 || matrices->stiffness.n > INT_MAX)
@@ -104,12 +105,14 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
     *control(made, ERRORS) = *control(made, DIAGNOSTICS) = *control(made, GLOBAL) = OFF;
     *control(made, LEVEL) = 0;
     *control(made, PERMUTATION) = 0;
-    *control(made, ORDERING) = SCOTCH;
+    *control(made, ORDERING) = like ? GIVEN : SCOTCH;
+    made->mumps.perm_in = like ? like->mumps.sym_perm : NULL;
     *control(made, PIVOTS) = 1;
     if (!status && !place_entries(made))
         status = no_memory(fault);
     if (!status) {
         run(made, ANALYSE);
+        made->mumps.perm_in = NULL;
         status = outcome(made, fault);
     }
     if (status)

@@ -20,10 +20,12 @@ struct factor_cost {
     double entries;    /* of L */
 };
 
-/* Orders the unknowns; `matrices` are borrowed until factor_free. PERCUSS_BAD_REQUEST: too many
- * unknowns; PERCUSS_INTERNAL without memory or with MUMPS's own code. */
+/* Orders the unknowns, or takes the order of `like`, of the same matrices (NULL: there is none);
+ * `matrices` are borrowed until factor_free. PERCUSS_BAD_REQUEST: too many unknowns;
+ * PERCUSS_INTERNAL without memory or with MUMPS's own code. */
 enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_kind kind,
-                                   struct factor **factor, struct fault *fault);
+                                   const struct factor *like, struct factor **factor,
+                                   struct fault *fault);
 
 struct factor_cost factor_cost(const struct factor *factor);
 

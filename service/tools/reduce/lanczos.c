@@ -254,7 +254,7 @@ static bool goes_on(const struct lanczos *state)
 
 size_t lanczos_expected_vectors(size_t count)
 {
-    return 2 * count + 8 * LANCZOS_BLOCK;
+    return 3 * count + 8 * LANCZOS_BLOCK;
 }
 
 /* Unknowns that can move elastically. */

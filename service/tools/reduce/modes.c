@@ -27,7 +27,10 @@ double rigid_modes_scale(const struct solid_mesh *mesh, const struct bulk *bulk)
     /* a slender beam's w = 22.4 sqrt(E/rho) k/L^2 with its radius of gyration k; L^2 = 12 of its
      * greatest radius of gyration squared. Thinner than a thousandth is taken for that */
     thin = fmax(thin, 1e-6 * longest);
-    return 22.4 * 22.4 * speed * thin / (144.0 * longest * longest);
+    double bending = 22.4 * 22.4 * speed * thin / (144.0 * longest * longest);
+    /* a compact body is softer: half a shear wave of E/2.6 along L */
+    double shearing = M_PI * M_PI * speed / (2.6 * 12.0 * longest);
+    return bending * shearing / (bending + shearing);
 }
 
 /* Six candidates: shifts along the axes, turns about the nodes' middle; held nodes do not move.
@@ -140,7 +143,9 @@ struct modes_cost modes_cost(const struct factor_cost *cost, size_t n, size_t co
     double solves = 4.0 * cost->entries * vectors;
     double products = 4.0 * length * vectors * vectors + 2.0 * length * vectors * (double)count;
     double arrays = 8.0 * (length * (vectors + (double)count) + 3.0 * vectors * vectors);
-    return (struct modes_cost){cost->memory + arrays,
+    double memory = cost->memory + arrays;
+    double together = 2.0 * cost->memory + 8.0 * length * (double)count;
+    return (struct modes_cost){memory, fmax(memory, together),
                                (2.5 * cost->operations + products) / FACTOR_RATE +
                                    solves / SOLVE_RATE};
 }
@@ -170,11 +175,12 @@ static bool tell_done(const struct modes_task *task, double done)
     return !watch || !watch->proceed || watch->proceed(watch->context, done);
 }
 
-enum percuss_status modes_count(const struct modes_task *task, double omega, size_t *count,
-                                struct fault *fault)
+enum percuss_status modes_count(const struct modes_task *task, double omega,
+                                const struct factor *like, size_t *count, struct fault *fault)
 {
     struct factor *factor;
-    enum percuss_status status = factor_analyse(task->matrices, FACTOR_INDEFINITE, &factor, fault);
+    enum percuss_status status =
+        factor_analyse(task->matrices, FACTOR_INDEFINITE, like, &factor, fault);
     if (!status)
         status = factor_compute(factor, -omega * omega, fault);
     *count = status ? 0 : factor_negatives(factor);
@@ -183,10 +189,13 @@ enum percuss_status modes_count(const struct modes_task *task, double omega, siz
     return status;
 }
 
+/* `*factor`, analysed already or NULL, becomes that of K + shift M; NULL with an error. */
 static enum percuss_status make_factor(const struct modes_task *task, double shift,
                                        struct factor **factor, struct fault *fault)
 {
-    enum percuss_status status = factor_analyse(task->matrices, FACTOR_POSITIVE, factor, fault);
+    enum percuss_status status = PERCUSS_OK;
+    if (!*factor)
+        status = factor_analyse(task->matrices, FACTOR_POSITIVE, NULL, factor, fault);
     if (!status)
         status = factor_compute(*factor, shift, fault);
     if (status) {
@@ -206,7 +215,7 @@ static enum percuss_status seek_modes(const struct modes_task *task, struct fact
     struct watch watch = {task->watch && task->watch->proceed ? stage_proceed : NULL, &stage};
     struct lanczos_input input = {.matrices = task->matrices,
                                   .factor = factor,
-                                  .shift = task->scale,
+                                  .shift = modes->shift,
                                   .rigid = task->rigid,
                                   .count = count,
                                   .seed = seed,
@@ -265,14 +274,25 @@ static size_t modes_there_are(const struct modes_task *task)
     return moving > task->rigid.count ? moving - task->rigid.count : 0;
 }
 
-/* The shift for statics, which go without the modes: a step leaves shift / (shift + w^2) of each
- * further one. This far below the first mode one or two steps do, and of the sixteen digits rigid
- * motions take two more. */
-static double static_shift(const struct modes_task *task, const struct modes *modes)
+/* One factor serves modes and statics. Statics go without the modes: a step leaves shift / (shift +
+ * w^2) of each further one, so that this far below the first mode one step does; of the sixteen
+ * digits rigid motions, of 1 / shift, take three more. */
+static const double BELOW_FIRST = 1e-3;
+/* The first mode's square is guessed. Where that was too much by more than this, the factor is made
+ * anew. */
+static const double GUESSED = 100.0;
+
+/* Makes the factor for statics unless it is there and its shift suits the modes, now known. */
+static enum percuss_status suit_factor(const struct modes_task *task, struct modes *modes,
+                                       struct factor **factor, struct fault *fault)
 {
-    static const double BELOW_FIRST = 1e-2;
     double first = modes->count ? modes->omega[0] * modes->omega[0] : task->scale;
-    return BELOW_FIRST * fmin(task->scale, first);
+    bool suits = modes->shift <= GUESSED * BELOW_FIRST * first;
+    if (*factor && suits)
+        return PERCUSS_OK;
+    if (!suits)
+        modes->shift = BELOW_FIRST * first;
+    return make_factor(task, modes->shift, factor, fault);
 }
 
 /* So many modes; then a count says whether they are the lowest, between two of the spare ones. */
@@ -284,28 +304,33 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "%zu modes: must be at most %zu with such a mesh", task->most,
                          most > SPARE ? most - SPARE : 0);
-    for (uint64_t attempt = 1; attempt <= ATTEMPTS; attempt++) {
-        enum percuss_status status = make_factor(task, task->scale, factor, fault);
+    enum percuss_status status = make_factor(task, modes->shift, factor, fault);
+    for (uint64_t attempt = 1; !status && attempt <= ATTEMPTS; attempt++) {
+        if (!*factor)
+            status = make_factor(task, modes->shift, factor, fault);
         if (!status)
             status = seek_modes(task, *factor, task->most + SPARE, attempt, modes, fault);
         if (status)
             return status;
-        /* one factor at a time fits where two might not */
-        factor_free(*factor);
-        *factor = NULL;
         modes->count = whole_frequencies(modes->omega, task->most, task->most + SPARE);
         modes->confirmed =
             widest_gap(modes->omega, modes->count, task->most + SPARE, &modes->confirmed_below);
-        status = modes_count(task, modes->confirmed_below, &counted, fault);
-        if (status)
-            return status;
-        if (counted == modes->confirmed) {
-            modes->shift = static_shift(task, modes);
-            return make_factor(task, modes->shift, factor, fault);
+        if (!task->two_factors) {
+            factor_free(*factor);
+            *factor = NULL;
         }
+        status = modes_count(task, modes->confirmed_below, *factor, &counted, fault);
+        if (!status && counted == modes->confirmed)
+            return suit_factor(task, modes, factor, fault);
     }
-    return fault_set(fault, PERCUSS_INTERNAL, "%zu modes found below %g Hz, where there are %zu",
-                     modes->confirmed, modes->confirmed_below / (2.0 * M_PI), counted);
+    if (status)
+        return status;
+    /* none of the first modes of a body is that soft */
+    bool loose = modes->omega[0] * modes->omega[0] < modes->shift;
+    return fault_set(fault, loose ? PERCUSS_BAD_REQUEST : PERCUSS_INTERNAL,
+                     "%zu modes found below %g Hz, where there are %zu%s", modes->confirmed,
+                     modes->confirmed_below / (2.0 * M_PI), counted,
+                     loose ? ": are stiffness and mass whole, and of one body?" : "");
 }
 
 /* All modes below a frequency, of which there are `count`. */
@@ -313,15 +338,13 @@ static enum percuss_status find_below(const struct modes_task *task, size_t coun
                                       struct modes *modes, struct factor **factor,
                                       struct fault *fault)
 {
-    enum percuss_status status = make_factor(task, task->scale, factor, fault);
+    enum percuss_status status = make_factor(task, modes->shift, factor, fault);
     modes->count = modes->confirmed = count;
     modes->confirmed_below = task->below;
     for (uint64_t attempt = 1; !status && attempt <= ATTEMPTS; attempt++) {
         status = seek_modes(task, *factor, count, attempt, modes, fault);
-        if (!status && (count == 0 || modes->omega[count - 1] < task->below)) {
-            modes->shift = static_shift(task, modes);
-            return factor_compute(*factor, modes->shift, fault);
-        }
+        if (!status && (count == 0 || modes->omega[count - 1] < task->below))
+            return suit_factor(task, modes, factor, fault);
     }
     return status ? status
                   : fault_set(fault, PERCUSS_INTERNAL,
@@ -363,11 +386,10 @@ enum percuss_status modes_find(const struct modes_task *task, struct modes *mode
                                struct factor **factor, struct fault *fault)
 {
     size_t count = task->known;
-    *modes = (struct modes){.n = task->matrices->stiffness.n, .shift = task->scale};
-    *factor = NULL;
+    *modes = (struct modes){.n = task->matrices->stiffness.n, .shift = BELOW_FIRST * task->scale};
     enum percuss_status status = PERCUSS_OK;
     if (isfinite(task->below) && count == SIZE_MAX)
-        status = modes_count(task, task->below, &count, fault);
+        status = modes_count(task, task->below, *factor, &count, fault);
     if (!status && !tell_done(task, count <= task->most ? COUNTED : 0.0))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped");
     if (!status)

@@ -414,15 +414,13 @@ static struct sites_task sites_task_of(const struct reduction *reduction)
 /* The order of unknowns and a sample of the sites' integrals, which all estimates follow from. */
 static enum percuss_status take_sample(struct reduction *reduction, struct fault *fault)
 {
-    struct factor *factor;
     double start = clock_seconds();
     enum percuss_status status =
-        factor_analyse(&reduction->matrices, FACTOR_POSITIVE, &factor, fault);
+        factor_analyse(&reduction->matrices, FACTOR_POSITIVE, NULL, &reduction->factor, fault);
     if (status)
         return status;
     reduction->order_seconds = clock_seconds() - start;
-    reduction->factor_cost = factor_cost(factor);
-    factor_free(factor);
+    reduction->factor_cost = factor_cost(reduction->factor);
     struct sites_task task = sites_task_of(reduction);
     return sites_sample(&task, &reduction->sample, fault);
 }
@@ -433,11 +431,13 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
 {
     size_t n = reduction->task.rigid.n, sites = reduction->sample.count;
     reduction->cost = modes_cost(&reduction->factor_cost, n, count);
-    /* unknowns are ordered anew for each of three factors */
-    reduction->cost.seconds += 3.0 * reduction->order_seconds;
     /* and the matrices themselves */
-    reduction->cost.memory += 12.0 * (double)reduction->matrices.stiffness.start[n] +
-                              12.0 * (double)reduction->matrices.mass.start[n];
+    double matrices = 12.0 * (double)reduction->matrices.stiffness.start[n] +
+                      12.0 * (double)reduction->matrices.mass.start[n];
+    double free = free_memory();
+    reduction->task.two_factors = reduction->cost.together + matrices < free;
+    reduction->cost.memory = matrices + (reduction->task.two_factors ? reduction->cost.together
+                                                                     : reduction->cost.memory);
     double each = reduction->sample.seconds;
     reduction->statics =
         ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, n, sites,
@@ -445,7 +445,7 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
         (double)processes_for(reduction);
     reduction->progress.work = clock_seconds();
     reduction->progress.expected = reduction->cost.seconds + reduction->statics;
-    double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free_memory();
+    double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free;
     progress_clear(&reduction->progress);
     fprintf(stderr,
             "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, %.2g s for the "
@@ -485,7 +485,7 @@ static enum percuss_status choose_modes(struct reduction *reduction, struct faul
     double hertz = asked ? options->max_frequency : reduction->good_to;
     size_t count;
     progress_stage(&reduction->progress, "counting modes", 0.0, 0.0);
-    status = modes_count(task, 2.0 * M_PI * hertz, &count, fault);
+    status = modes_count(task, 2.0 * M_PI * hertz, reduction->factor, &count, fault);
     if (status)
         return status;
     /* below one that was asked for there must be some */

@@ -50,9 +50,12 @@ static enum percuss_status judge_outcome(struct spread_outcome outcome, struct f
     return fault_set(fault, PERCUSS_INTERNAL, "MUMPS: error %d (%d)", code, outcome.detail);
 }
 
+/* PETSc orders the unknowns of each factor itself. */
 enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_kind kind,
-                                   struct factor **factor, struct fault *fault)
+                                   const struct factor *like, struct factor **factor,
+                                   struct fault *fault)
 {
+    (void)like;
     *factor = NULL;
     /* rows are numbered in int */
     if (matrices->stiffness.n == 0 || matrices->stiffness.n > INT_MAX)

@@ -65,8 +65,9 @@ static inline void flexed_make(struct flexed *flexed, struct solid_mesh *mesh, d
                          PERCUSS_OK);
     else
         flexed->rigid = flexed_rigid(&flexed->mesh, &flexed->matrices.mass);
-    assert_int_equal(factor_analyse(&flexed->matrices, FACTOR_POSITIVE, &flexed->factor, &fault),
-                     PERCUSS_OK);
+    assert_int_equal(
+        factor_analyse(&flexed->matrices, FACTOR_POSITIVE, NULL, &flexed->factor, &fault),
+        PERCUSS_OK);
     assert_int_equal(factor_compute(flexed->factor, shift, &fault), PERCUSS_OK);
     flexed->body = (struct flexibility_body){.mesh = &flexed->mesh,
                                              .surface = &flexed->surface,

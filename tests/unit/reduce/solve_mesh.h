@@ -25,6 +25,7 @@ static inline void solve_mesh(const struct solid_mesh *mesh, size_t held, double
                               struct solved *solved)
 {
     struct fault fault = {""};
+    solved->factor = NULL;
     bulk_of(mesh, &solved->bulk);
     assert_int_equal(matrices_make(mesh, &solved->matrices, &fault), PERCUSS_OK);
     for (size_t i = 0; i < held; i++)

@@ -35,7 +35,8 @@ static void test_counts_eigenvalues(void **state)
     struct factor *factor;
     struct fault fault;
     chain(&matrices);
-    assert_int_equal(factor_analyse(&matrices, FACTOR_INDEFINITE, &factor, &fault), PERCUSS_OK);
+    assert_int_equal(factor_analyse(&matrices, FACTOR_INDEFINITE, NULL, &factor, &fault),
+                     PERCUSS_OK);
     /* one order of unknowns serves every shift */
     for (size_t j = 1; j < CHAIN; j++) {
         double between = 4.0 * pow(sin(((double)j + 0.5) * M_PI / (2.0 * CHAIN + 2.0)), 2.0);
@@ -56,7 +57,7 @@ static void test_solves(void **state)
     double b[2 * CHAIN] = {1.0};
     b[2 * CHAIN - 1] = 1.0;
     chain(&matrices);
-    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, &factor, &fault), PERCUSS_OK);
+    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, NULL, &factor, &fault), PERCUSS_OK);
     assert_true(factor_cost(factor).memory > 0.0);
     assert_int_equal(factor_compute(factor, 0.0, &fault), PERCUSS_OK);
     assert_int_equal(factor_solve(factor, 2, b, &fault), PERCUSS_OK);
@@ -64,7 +65,17 @@ static void test_solves(void **state)
         near(b[i], (double)(CHAIN - i) / (CHAIN + 1.0), 1e-13);
         near(b[CHAIN + i], (double)(i + 1) / (CHAIN + 1.0), 1e-13);
     }
+    /* another one takes its order of unknowns, and does not need it any more */
+    struct factor *like;
+    double again[CHAIN] = {1.0};
+    assert_int_equal(factor_analyse(&matrices, FACTOR_INDEFINITE, factor, &like, &fault),
+                     PERCUSS_OK);
     factor_free(factor);
+    assert_int_equal(factor_compute(like, 0.0, &fault), PERCUSS_OK);
+    assert_int_equal(factor_solve(like, 1, again, &fault), PERCUSS_OK);
+    for (size_t i = 0; i < CHAIN; i++)
+        near(again[i], b[i], 1e-13);
+    factor_free(like);
     matrices_free(&matrices);
 }
 
@@ -76,7 +87,7 @@ static void test_refuses_what_is_not_positive(void **state)
     struct factor *factor;
     struct fault fault;
     chain(&matrices);
-    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, &factor, &fault), PERCUSS_OK);
+    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, NULL, &factor, &fault), PERCUSS_OK);
     assert_int_equal(factor_compute(factor, -0.01, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "negative eigenvalues"));
     factor_free(factor);
@@ -103,7 +114,7 @@ static void test_held_bar(void **state)
         x[3 * i] = mesh.points[i][0];
     sparse_multiply(&matrices.stiffness, 1, x, b);
     assert_int_equal(matrices_hold(&matrices, &mesh.set[0], &fault), PERCUSS_OK);
-    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, &factor, &fault), PERCUSS_OK);
+    assert_int_equal(factor_analyse(&matrices, FACTOR_POSITIVE, NULL, &factor, &fault), PERCUSS_OK);
     assert_int_equal(factor_compute(factor, 0.0, &fault), PERCUSS_OK);
     double force = 0.0;
     for (size_t i = 0; i < mesh.set[1].count; i++)
