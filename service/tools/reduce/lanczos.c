@@ -82,7 +82,8 @@ static struct dense basis_of(const struct lanczos *state)
     return (struct dense){state->n, state->size, state->basis};
 }
 
-/* The vectors of the basis that A joins to its next block, but for rounding: the last two blocks. */
+/* The vectors of the basis that A joins to its next block, but for rounding: the last two blocks.
+ */
 static struct dense joined_of(const struct lanczos *state)
 {
     size_t most = 2 * LANCZOS_BLOCK, count = state->size < most ? state->size : most;

@@ -34,8 +34,8 @@ struct lanczos_input {
 enum percuss_status lanczos_modes(const struct lanczos_input *input, double **omega,
                                   double **shapes, struct fault *fault);
 
-/* Vectors that so many modes take, for estimates of time and memory: of compact bodies a tenth more,
- * of slender ones, whose frequencies lie farther apart, half as many. */
+/* Vectors that so many modes take, for estimates of time and memory: of compact bodies a tenth
+ * more, of slender ones, whose frequencies lie farther apart, half as many. */
 size_t lanczos_expected_vectors(size_t count);
 
 #endif

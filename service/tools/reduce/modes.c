@@ -129,32 +129,37 @@ enum percuss_status rigid_modes_make(const struct solid_mesh *mesh, const struct
 enum { SPARE = 4, ATTEMPTS = 3 };
 
 /* Parts of the work: the count, the factor, the modes. */
-static const double COUNTED = 0.15, FACTORED = 0.25;
+static const double COUNTED = 0.15, FACTORED = 0.15;
 
-/* Operations a second: of factors and products of long vectors, and of solves, which wait for
- * memory. */
-static const double FACTOR_RATE = 8e9, SOLVE_RATE = 5e9;
+/* Solutions pass the factor as whole blocks, which is so many times as fast as thin products. */
+static const double SOLVE_SPEED = 1.6;
 
-struct modes_cost modes_cost(const struct factor_cost *cost, size_t n, size_t count)
+struct modes_cost modes_cost(const struct factor_cost *cost, const struct rates *rates,
+                             const struct matrices *matrices, size_t count)
 {
-    double vectors = (double)lanczos_expected_vectors(count), length = (double)n;
-    /* a solve passes all entries twice; each new vector meets all before it four times, twice; an
-     * indefinite factor counts the modes first */
+    double vectors = (double)lanczos_expected_vectors(count);
+    double length = (double)matrices->stiffness.n;
+    double mass = (double)matrices->mass.start[matrices->mass.n];
+    /* a solve passes all entries twice; each new vector meets all before it once, and M three
+     * times; another factor counts the modes */
     double solves = 4.0 * cost->entries * vectors;
-    double products = 4.0 * length * vectors * vectors + 2.0 * length * vectors * (double)count;
+    double products =
+        2.0 * length * vectors * (vectors + (double)count) + 3.0 * 4.0 * mass * vectors;
     double arrays = 8.0 * (length * (vectors + (double)count) + 3.0 * vectors * vectors);
     double memory = cost->memory + arrays;
     double together = 2.0 * cost->memory + 8.0 * length * (double)count;
     return (struct modes_cost){memory, fmax(memory, together),
-                               (2.5 * cost->operations + products) / FACTOR_RATE +
-                                   solves / SOLVE_RATE};
+                               2.0 * cost->operations / rates->square +
+                                   (products + solves / SOLVE_SPEED) / rates->thin};
 }
 
-/* one or two solutions, and five products with the modes that are taken out */
-double modes_statics_seconds(const struct factor_cost *cost, size_t n, size_t count, size_t removed)
+/* one solution, and five products with the modes that are taken out; a block of them is four times
+ * as wide as the modes', and twice as fast */
+double modes_statics_seconds(const struct factor_cost *cost, const struct rates *rates, size_t n,
+                             size_t count, size_t removed)
 {
-    double solves = 1.5 * 4.0 * cost->entries, products = 10.0 * (double)n * (double)removed;
-    return (double)count * (solves / SOLVE_RATE + products / FACTOR_RATE);
+    double solves = 4.0 * cost->entries, products = 10.0 * (double)n * (double)removed;
+    return 0.5 * (double)count * (solves / SOLVE_SPEED + products) / rates->thin;
 }
 
 /* A watch for one stage of the work. */
@@ -209,8 +214,8 @@ static enum percuss_status seek_modes(const struct modes_task *task, struct fact
                                       size_t count, uint64_t seed, struct modes *modes,
                                       struct fault *fault)
 {
-    /* where they are counted afterwards there is another factor to make, too */
-    double before = count > task->most ? 0.5 * FACTORED : COUNTED + FACTORED;
+    /* they are counted before or afterwards */
+    double before = count > task->most ? FACTORED : COUNTED + FACTORED;
     struct stage stage = {task->watch, before, 1.0 - COUNTED - FACTORED};
     struct watch watch = {task->watch && task->watch->proceed ? stage_proceed : NULL, &stage};
     struct lanczos_input input = {.matrices = task->matrices,

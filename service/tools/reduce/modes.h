@@ -13,6 +13,7 @@
 #include "mesh/matrices.h"
 #include "numeric/dense.h"
 #include "reduce/factor.h"
+#include "reduce/rates.h"
 
 enum { RIGID_MOST = 6 };
 
@@ -56,13 +57,14 @@ struct modes_task {
 struct modes_cost {
     double memory;   /* bytes at the peak */
     double together; /* bytes with two factors, see modes_task */
-    double seconds; /* on one core of some 2020: to a factor of two or so */
+    double seconds;  /* at these rates: to a factor of two or so */
 };
-struct modes_cost modes_cost(const struct factor_cost *cost, size_t n, size_t count);
+struct modes_cost modes_cost(const struct factor_cost *cost, const struct rates *rates,
+                             const struct matrices *matrices, size_t count);
 
 /* Time of `count` static solutions without `removed` modes, s as above. */
-double modes_statics_seconds(const struct factor_cost *cost, size_t n, size_t count,
-                             size_t removed);
+double modes_statics_seconds(const struct factor_cost *cost, const struct rates *rates, size_t n,
+                             size_t count, size_t removed);
 
 /* Elastic modes below a frequency (rad/s), by inertia: takes a factor, in the order of `like`
  * (factor_analyse; NULL: in one of its own). Errors as below. */
@@ -71,9 +73,9 @@ enum percuss_status modes_count(const struct modes_task *task, double omega,
 
 /* Frequencies within 1e-3 stay together where `most` would cut between them: then there are a few
  * modes more, or fewer. `*factor`, analysed as positive or NULL, becomes that of K + shift M, for
- * later use: the caller's to free. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has fewer modes, or
- * its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when the number of
- * modes is not confirmed however often they are sought. */
+ * later use: the caller's to free. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the
+ * mesh has fewer modes, or its matrices are not those of a body; PERCUSS_INTERNAL without memory,
+ * or when the number of modes is not confirmed however often they are sought. */
 enum percuss_status modes_find(const struct modes_task *task, struct modes *modes,
                                struct factor **factor, struct fault *fault);
 

@@ -25,17 +25,10 @@
 /* s between lines: on a terminal, elsewhere; and before a guess of the time left is worth a word */
 static const double TERMINAL_PAUSE = 0.2, OTHER_PAUSE = 30.0, FIRST_GUESS = 2.0;
 
-static double clock_seconds(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* `pause` in s; 0: a pause that suits standard error. */
 static struct progress progress_begin(double pause)
 {
-    double start = clock_seconds();
+    double start = rates_clock();
     bool terminal = isatty(STDERR_FILENO);
     return (struct progress){.label = "",
                              .terminal = terminal,
@@ -50,7 +43,7 @@ static struct progress progress_begin(double pause)
 
 static double progress_seconds(const struct progress *progress)
 {
-    return clock_seconds() - progress->start;
+    return rates_clock() - progress->start;
 }
 
 /* Time left, s: as expected at first, then more and more as the work goes; < 0: not known. */
@@ -60,7 +53,7 @@ static double progress_left(const struct progress *progress, double done)
     static const double FAITH = 0.05;
     if (!(progress->expected > 0.0))
         return -1.0;
-    double elapsed = clock_seconds() - progress->work;
+    double elapsed = rates_clock() - progress->work;
     return (1.0 - done) * (elapsed + FAITH * progress->expected) / (done + FAITH);
 }
 
@@ -76,7 +69,7 @@ static void write_progress(struct progress *progress, double done)
             fprintf(stderr, ", %.0f min left", left / 60.0);
     }
     fputs(progress->terminal ? "\033[K" : "\n", stderr);
-    progress->told = clock_seconds();
+    progress->told = rates_clock();
 }
 
 /* The next stage begins at the part `from` of the whole and is `share` of it. */
@@ -93,7 +86,7 @@ static void progress_stage(struct progress *progress, const char *label, double 
 static bool progress_show(void *context, double done)
 {
     struct progress *progress = context;
-    if (clock_seconds() - progress->told >= progress->pause)
+    if (rates_clock() - progress->told >= progress->pause)
         write_progress(progress, progress->from + progress->share * done);
     return true;
 }
@@ -411,15 +404,16 @@ static struct sites_task sites_task_of(const struct reduction *reduction)
                                .processes = processes_for(reduction)};
 }
 
-/* The order of unknowns and a sample of the sites' integrals, which all estimates follow from. */
+/* The order of unknowns, this machine's rates and a sample of the sites' integrals, which all
+ * estimates follow from. */
 static enum percuss_status take_sample(struct reduction *reduction, struct fault *fault)
 {
-    double start = clock_seconds();
     enum percuss_status status =
         factor_analyse(&reduction->matrices, FACTOR_POSITIVE, NULL, &reduction->factor, fault);
     if (status)
         return status;
-    reduction->order_seconds = clock_seconds() - start;
+    if (!rates_measure(&reduction->rates))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     reduction->factor_cost = factor_cost(reduction->factor);
     struct sites_task task = sites_task_of(reduction);
     return sites_sample(&task, &reduction->sample, fault);
@@ -430,7 +424,8 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
                                          struct fault *fault)
 {
     size_t n = reduction->task.rigid.n, sites = reduction->sample.count;
-    reduction->cost = modes_cost(&reduction->factor_cost, n, count);
+    reduction->cost =
+        modes_cost(&reduction->factor_cost, &reduction->rates, &reduction->matrices, count);
     /* and the matrices themselves */
     double matrices = 12.0 * (double)reduction->matrices.stiffness.start[n] +
                       12.0 * (double)reduction->matrices.mass.start[n];
@@ -440,10 +435,10 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
                                                                      : reduction->cost.memory);
     double each = reduction->sample.seconds;
     reduction->statics =
-        ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, n, sites,
-                                                      count < REMOVED ? count : REMOVED)) /
+        ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, &reduction->rates, n,
+                                                      sites, count < REMOVED ? count : REMOVED)) /
         (double)processes_for(reduction);
-    reduction->progress.work = clock_seconds();
+    reduction->progress.work = rates_clock();
     reduction->progress.expected = reduction->cost.seconds + reduction->statics;
     double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free;
     progress_clear(&reduction->progress);

@@ -39,7 +39,7 @@ struct reduction {
     struct matrices matrices;
     double *rigid;
     struct modes_task task;
-    double order_seconds; /* for the order of unknowns, measured */
+    struct rates rates;
     struct factor_cost factor_cost;
     struct modes_cost cost;
     struct sites_sample sample;

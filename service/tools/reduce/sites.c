@@ -7,11 +7,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "model/facet.h"
 #include "model/vector.h"
 #include "reduce/forked.h"
+#include "reduce/rates.h"
 #include "reduce/site_field.h"
 
 /* ---- the choice of sites: places all over a surface, evenly far from each other ---- */
@@ -503,13 +503,6 @@ static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body
     return PERCUSS_OK;
 }
 
-static double clock_seconds(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 enum percuss_status sites_sample(const struct sites_task *task, struct sites_sample *sample,
                                  struct fault *fault)
 {
@@ -523,10 +516,10 @@ enum percuss_status sites_sample(const struct sites_task *task, struct sites_sam
     enum percuss_status status = sites.flexibility ? choose_sites(&sites, &spacing, fault)
                                                    : pace_fault(fault, PERCUSS_INTERNAL);
     if (status == PERCUSS_OK) {
-        double start = clock_seconds();
+        double start = rates_clock();
         for (size_t i = 0; i < SAMPLES && sites.count > 0; i++)
             flexibility_integrate(sites.flexibility, &sites.places[i * sites.count / SAMPLES]);
-        *sample = (struct sites_sample){sites.count, (clock_seconds() - start) / SAMPLES};
+        *sample = (struct sites_sample){sites.count, (rates_clock() - start) / SAMPLES};
     }
     sites_free(&sites);
     return status;
