@@ -4,6 +4,7 @@
 #include "model/boussinesq3.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "model/vector.h"
@@ -87,21 +88,105 @@ void boussinesq3_field(const struct boussinesq3 *load, const double x[3], double
     }
 }
 
-/* gradient and second derivatives of t.x/s, s = R + z; x being seen from the point */
-static void cerruti_potential(const double x[3], const double e[3], const double t[3],
-                              double gradient[3], double second[3][3])
+/* adds `scale` times gradient and second derivatives (NULL: not wanted) of t.x/s, s = R + z */
+static void add_share(double scale, const double x[3], const double e[3], const double t[3],
+                      double gradient[3], double second[6])
 {
     double distance = norm3(x), sum = distance + dot3(x, e), share = dot3(t, x) / sum, slope[3];
     for (int i = 0; i < 3; i++) {
         slope[i] = (x[i] / distance + e[i]) / sum; /* of ln s */
-        gradient[i] = t[i] / sum - share * slope[i];
+        gradient[i] += scale * (t[i] / sum - share * slope[i]);
     }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            double bend = ((i == j) - x[i] * x[j] / (distance * distance)) / (distance * sum);
-            second[i][j] = share * (2.0 * slope[i] * slope[j] - bend) -
-                           (t[i] * slope[j] + slope[i] * t[j]) / sum;
-        }
+    for (int k = 0; second && k < 6; k++) {
+        int i = ROW[k], j = COLUMN[k];
+        double bend = ((i == j) - x[i] * x[j] / (distance * distance)) / (distance * sum);
+        second[k] += scale * (share * (2.0 * slope[i] * slope[j] - bend) -
+                              (t[i] * slope[j] + slope[i] * t[j]) / sum);
+    }
+}
+
+/* the same of t.grad ln s = t.x g, g = 1/(R s) */
+static void add_log_slope(double scale, const double x[3], const double e[3], const double t[3],
+                          double gradient[3], double second[6])
+{
+    double square = dot3(x, x), distance = sqrt(square), sum = distance + dot3(x, e);
+    double g = 1.0 / (distance * sum), lever = dot3(t, x), slope[3], fall[3];
+    for (int i = 0; i < 3; i++) {
+        slope[i] = (x[i] / distance + e[i]) / sum;   /* of ln s */
+        fall[i] = -g * (x[i] / square + slope[i]);   /* of g */
+        gradient[i] += scale * (t[i] * g + lever * fall[i]);
+    }
+    for (int k = 0; second && k < 6; k++) {
+        int i = ROW[k], j = COLUMN[k];
+        double pair = x[i] * x[j] / square, same = i == j;
+        double bend = fall[i] * fall[j] / g - g * ((same - 2.0 * pair) / square +
+                                                  (same - pair) / (distance * sum) -
+                                                  slope[i] * slope[j]);
+        second[k] += scale * (t[i] * fall[j] + t[j] * fall[i] + lever * bend);
+    }
+}
+
+/* x seen from the end of the reach */
+static void seen_from_end(const struct boussinesq3 *load, const double x[3], double from_end[3])
+{
+    sub3(x, load->point, from_end);
+    add_scaled3(load->reach, load->inward, from_end);
+}
+
+/* The potential of Cerruti's field: t.x/s, less, with a reach L, t.x'/s' + L t.grad ln s'. Both
+ * are singular alike on the line beyond; there R + z = (distance from the axis)^2 / (R - z), and
+ * the distance cancels. */
+static void cerruti_potential(const struct boussinesq3 *load, const double t[3], const double x[3],
+                              double gradient[3], double second[6])
+{
+    double r[3], from_end[3], outward[3];
+    const double *e = load->inward;
+    sub3(x, load->point, r);
+    memset(gradient, 0, 3 * sizeof *gradient);
+    if (second)
+        memset(second, 0, 6 * sizeof *second);
+    if (isinf(load->reach)) {
+        add_share(1.0, r, e, t, gradient, second);
+        return;
+    }
+    seen_from_end(load, x, from_end);
+    bool below = dot3(from_end, e) > 0.0;
+    scale3(below ? 1.0 : -1.0, e, outward);
+    add_share(1.0, r, outward, t, gradient, second);
+    add_share(-1.0, from_end, outward, t, gradient, second);
+    add_log_slope(below ? -load->reach : load->reach, from_end, outward, t, gradient, second);
+}
+
+/* What the reach adds along t besides, so that it is in equilibrium by itself: 1/R' + L z'/R'^3;
+ * and its gradient (NULL: not wanted). */
+static double cerruti_balance(const struct boussinesq3 *load, const double x[3], double gradient[3])
+{
+    double from_end[3];
+    if (gradient)
+        memset(gradient, 0, 3 * sizeof *gradient);
+    if (isinf(load->reach))
+        return 0.0;
+    seen_from_end(load, x, from_end);
+    double inverse = 1.0 / norm3(from_end), cube = inverse * inverse * inverse;
+    double part = load->reach * dot3(from_end, load->inward);
+    for (int i = 0; gradient && i < 3; i++)
+        gradient[i] = load->reach * cube * load->inward[i] -
+                      (1.0 + 3.0 * part * inverse * inverse) * cube * from_end[i];
+    return inverse + part * cube;
+}
+
+/* stress += the potential's: second - e e.second - e.second e, and t grad b + grad b t */
+static void add_potential_stress(const struct boussinesq3 *load, const double t[3],
+                                 const double second[6], const double balance[3], double stress[6])
+{
+    const double *e = load->inward;
+    double bent[3], scale = (1.0 - 2.0 * load->poisson) / (2.0 * M_PI);
+    boussinesq3_traction(second, e, bent);
+    for (int k = 0; k < 6; k++) {
+        int i = ROW[k], j = COLUMN[k];
+        stress[k] += scale * (second[k] - e[i] * bent[j] - e[j] * bent[i] + t[i] * balance[j] +
+                              t[j] * balance[i]);
+    }
 }
 
 void cerruti3_field(const struct boussinesq3 *load, const double along[3], const double x[3],
@@ -109,26 +194,62 @@ void cerruti3_field(const struct boussinesq3 *load, const double along[3], const
 {
     const double *e = load->inward;
     double poisson = load->poisson, side = 1.0 - 2.0 * poisson;
-    double r[3], gradient[3], second[3][3], bent[3];
+    double r[3], gradient[3], second[6], slope[3];
     sub3(x, load->point, r);
-    cerruti_potential(r, e, along, gradient, second);
+    cerruti_potential(load, along, x, gradient, stress ? second : NULL);
+    double balance = cerruti_balance(load, x, stress ? slope : NULL);
     double inverse = 1.0 / norm3(r), cube = inverse * inverse * inverse, lever = dot3(along, r);
 
     if (displacement) {
         double scale = (1.0 + poisson) / (2.0 * M_PI * load->young), depth = dot3(e, gradient);
         for (int i = 0; i < 3; i++)
-            displacement[i] = scale * (lever * r[i] * cube + along[i] * inverse +
-                                       side * (gradient[i] - 2.0 * depth * e[i]));
+            displacement[i] =
+                scale * (lever * r[i] * cube + along[i] * inverse +
+                         side * (gradient[i] - 2.0 * depth * e[i] + 2.0 * balance * along[i]));
     }
 
     /* Hooke's law; the dilatation is -2 (1 - 2 nu) x/R^3 */
-    for (int j = 0; j < 3; j++)
-        bent[j] = e[0] * second[0][j] + e[1] * second[1][j] + e[2] * second[2][j];
-    for (int k = 0; stress && k < 6; k++) {
+    if (stress) {
+        for (int k = 0; k < 6; k++) {
+            int i = ROW[k], j = COLUMN[k];
+            stress[k] = ((i == j ? lever * cube * side : 0.0) -
+                         3.0 * lever * r[i] * r[j] * cube * inverse * inverse) /
+                        (2.0 * M_PI);
+        }
+        add_potential_stress(load, along, second, slope, stress);
+    }
+}
+
+void cerruti3_added_stress(const struct boussinesq3 *load, const double along[3], const double x[3],
+                           double stress[6])
+{
+    double from_end[3], gradient[3] = {0.0}, second[6] = {0.0}, slope[3];
+    memset(stress, 0, 6 * sizeof *stress);
+    if (isinf(load->reach))
+        return;
+    seen_from_end(load, x, from_end);
+    add_share(-1.0, from_end, load->inward, along, gradient, second);
+    add_log_slope(-load->reach, from_end, load->inward, along, gradient, second);
+    cerruti_balance(load, x, slope);
+    add_potential_stress(load, along, second, slope, stress);
+}
+
+double cerruti3_added_displacement(const struct boussinesq3 *load)
+{
+    return 3.0 * boussinesq3_added_displacement(load);
+}
+
+void cerruti3_add_slope(double young, double poisson, const double normal[3],
+                        const double curvature[9], double factor, double tensor[6])
+{
+    double unit = factor * (1.0 + poisson) / (2.0 * M_PI * young);
+    double mean = 0.5 * (curvature[0] + curvature[4] + curvature[8]);
+    double even = (1.25 + poisson * (3.0 * poisson - 2.5)) * mean;
+    double bent = 0.25 + poisson * (1.5 - poisson);
+    for (int k = 0; k < 6; k++) {
         int i = ROW[k], j = COLUMN[k];
-        double own = (i == j ? lever * cube * side : 0.0) -
-                     3.0 * lever * r[i] * r[j] * cube * inverse * inverse;
-        stress[k] = (own + side * (second[i][j] - e[i] * bent[j] - e[j] * bent[i])) / (2.0 * M_PI);
+        tensor[k] += unit * (even * ((i == j) - normal[i] * normal[j]) +
+                             bent * curvature[3 * i + j]);
     }
 }
 
@@ -136,8 +257,7 @@ void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3],
 {
     double from_end[3], gradient[3] = {0.0}, second[6] = {0.0};
     if (isfinite(load->reach)) {
-        sub3(x, load->point, from_end);
-        add_scaled3(load->reach, load->inward, from_end);
+        seen_from_end(load, x, from_end);
         add_logarithm(1.0, from_end, load->inward, gradient, second);
     }
     for (int k = 0; k < 6; k++)

@@ -34,11 +34,28 @@ void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3],
 double boussinesq3_added_displacement(const struct boussinesq3 *load);
 
 /* The same of a point load of 1 N along the surface, `along` (unit, normal to the load's inward
- * normal; Cerruti; Johnson, section 3.6), of infinite reach: with s = R + z and x = along.x,
+ * normal; Cerruti; Johnson, section 3.6): with s = R + z and x = along.x,
  *
- *     4 pi mu u = x x_vector / R^3 + along / R + (1 - 2 nu) (1 - 2 e e^T) grad (x / s). */
+ *     4 pi mu u = x x_vector / R^3 + along / R + (1 - 2 nu) (1 - 2 e e^T) grad (x / s).
+ *
+ * x/s grows along the line outwards. A reach takes it off by (1 - 2 e e^T) grad (x/s' + L
+ * d/dx ln s'), which with -2 along (1/R' + L z'/R'^3) is in equilibrium by itself and regular. */
 void cerruti3_field(const struct boussinesq3 *load, const double along[3], const double x[3],
                     double displacement[3], double stress[6]);
+void cerruti3_added_stress(const struct boussinesq3 *load, const double along[3], const double x[3],
+                           double stress[6]);
+double cerruti3_added_displacement(const struct boussinesq3 *load);
+
+/* On a curved surface the tractions of Cerruti's field, times its displacements, leave a flexibility
+ * along the surface that changes by S ln(r'/r) from the radius r' to r: the integral of both along a
+ * ring, with the curvatures k (> 0 where convex) and their mean H
+ *
+ *     S = (1 + nu)/(2 pi E) ((5/4 - 5/2 nu + 3 nu^2) H (1 - n n^T) + (1/4 + 3/2 nu - nu^2) k).
+ *
+ * Adds `factor` S to the tensor xx yy zz xy yz zx; curvature: row-major, across the unit `normal`.
+ */
+void cerruti3_add_slope(double young, double poisson, const double normal[3],
+                        const double curvature[9], double factor, double tensor[6]);
 
 /* t = s n */
 static inline void boussinesq3_traction(const double s[6], const double n[3], double t[3])

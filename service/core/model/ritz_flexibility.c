@@ -661,19 +661,16 @@ double ritz_slope(const struct ritz *ritz)
     return (1.0 + ritz->poisson) * side * side / (2.0 * M_PI * ritz->basis.side[1]);
 }
 
-/* (1 + nu) (5/4 - 5/2 nu + 3 nu^2)/(2 pi) along the axis and (1 + nu) (7/4 + nu/2 + nu^2)/(2 pi)
- * about it of 1/(2 R): the integral of Cerruti's traction on the side times his displacement along
- * a ring about the load. */
 void ritz_tensor_narrow(const struct ritz *ritz, const double point[3], double logarithm,
                         double tensor[6])
 {
-    double nu = ritz->poisson, off = hypot(point[1], point[2]);
-    double unit = logarithm * (1.0 + nu) / (2.0 * M_PI * ritz->basis.side[1]);
-    double about = unit * (1.75 + nu * (0.5 + nu)), y = -point[2] / off, z = point[1] / off;
-    tensor[0] += unit * (1.25 + nu * (3.0 * nu - 2.5));
-    tensor[1] += about * y * y;
-    tensor[2] += about * z * z;
-    tensor[4] += about * y * z;
+    double off = hypot(point[1], point[2]), bend = 2.0 / ritz->basis.side[1];
+    const double normal[3] = {0.0, point[1] / off, point[2] / off};
+    const double about[3] = {0.0, -normal[2], normal[1]};
+    double curvature[9];
+    for (int i = 0; i < 9; i++)
+        curvature[i] = bend * about[i / 3] * about[i % 3];
+    cerruti3_add_slope(1.0, ritz->poisson, normal, curvature, logarithm, tensor);
 }
 
 /* Of a plate hit in its middle the flexibility lacks 0.11 exp(-4 (s - 1))/(E h) with s polynomials
