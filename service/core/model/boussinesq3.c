@@ -112,16 +112,16 @@ static void add_log_slope(double scale, const double x[3], const double e[3], co
     double square = dot3(x, x), distance = sqrt(square), sum = distance + dot3(x, e);
     double g = 1.0 / (distance * sum), lever = dot3(t, x), slope[3], fall[3];
     for (int i = 0; i < 3; i++) {
-        slope[i] = (x[i] / distance + e[i]) / sum;   /* of ln s */
-        fall[i] = -g * (x[i] / square + slope[i]);   /* of g */
+        slope[i] = (x[i] / distance + e[i]) / sum; /* of ln s */
+        fall[i] = -g * (x[i] / square + slope[i]); /* of g */
         gradient[i] += scale * (t[i] * g + lever * fall[i]);
     }
     for (int k = 0; second && k < 6; k++) {
         int i = ROW[k], j = COLUMN[k];
         double pair = x[i] * x[j] / square, same = i == j;
-        double bend = fall[i] * fall[j] / g - g * ((same - 2.0 * pair) / square +
-                                                  (same - pair) / (distance * sum) -
-                                                  slope[i] * slope[j]);
+        double bend =
+            fall[i] * fall[j] / g - g * ((same - 2.0 * pair) / square +
+                                         (same - pair) / (distance * sum) - slope[i] * slope[j]);
         second[k] += scale * (t[i] * fall[j] + t[j] * fall[i] + lever * bend);
     }
 }
@@ -248,8 +248,8 @@ void cerruti3_add_slope(double young, double poisson, const double normal[3],
     double bent = 0.25 + poisson * (1.5 - poisson);
     for (int k = 0; k < 6; k++) {
         int i = ROW[k], j = COLUMN[k];
-        tensor[k] += unit * (even * ((i == j) - normal[i] * normal[j]) +
-                             bent * curvature[3 * i + j]);
+        tensor[k] +=
+            unit * (even * ((i == j) - normal[i] * normal[j]) + bent * curvature[3 * i + j]);
     }
 }
 

@@ -46,9 +46,9 @@ void cerruti3_added_stress(const struct boussinesq3 *load, const double along[3]
                            double stress[6]);
 double cerruti3_added_displacement(const struct boussinesq3 *load);
 
-/* On a curved surface the tractions of Cerruti's field, times its displacements, leave a flexibility
- * along the surface that changes by S ln(r'/r) from the radius r' to r: the integral of both along a
- * ring, with the curvatures k (> 0 where convex) and their mean H
+/* On a curved surface the tractions of Cerruti's field, times its displacements, leave a
+ * flexibility along the surface that changes by S ln(r'/r) from the radius r' to r: the integral of
+ * both along a ring, with the curvatures k (> 0 where convex) and their mean H
  *
  *     S = (1 + nu)/(2 pi E) ((5/4 - 5/2 nu + 3 nu^2) H (1 - n n^T) + (1/4 + 3/2 nu - nu^2) k).
  *

@@ -17,7 +17,13 @@
  * On a surface of mean curvature H > 0 the integral of t.u_B grows like a logarithm as the radius r
  * that it begins at shrinks: C(r) = C(r') + slope ln(r' / r), slope = (1 + nu)(1 - 2 nu)^2 H / (2
  * pi E). The same r is the distance of two points that a force and its displacement are at; a
- * contact's is the mean over pairs of its points. */
+ * contact's is the mean over pairs of its points.
+ *
+ * Forces along the surface alike, with Cerruti's field for Boussinesq's: what a tangential traction
+ * on a half-space does is the contact's own, as friction's cells have it. C is a quadratic form of
+ * the force; between two forces i, j it is, with both orders' mean,
+ *
+ *     C_ij = f_i.x_j - integral of t_i.u_j - sum (2 p_ki g_kj - w_k^2 g_ki g_kj). */
 #ifndef PERCUSS_REDUCE_FLEXIBILITY_H
 #define PERCUSS_REDUCE_FLEXIBILITY_H
 
@@ -42,7 +48,9 @@ struct flexibility_body {
 };
 
 struct flexibility_answer {
-    double value;     /* C at `radius`, m/N */
+    double value;     /* C at `radius`, m/N; NAN: the forces do not balance */
+    double tensor[6]; /* the same between all directions, xx yy zz xy yz zx of the mesh's frame;
+                       * NAN: not wanted (place->loads), or the forces do not balance */
     double radius;    /* m; of no meaning where the surface is plane */
     double imbalance; /* of the nodal forces, over the force: round-off where all is well */
 };
@@ -57,7 +65,8 @@ void flexibility_free(struct flexibility *flexibility);
 const struct surface_rule *flexibility_rule(const struct flexibility *flexibility);
 const struct flexibility_edges *flexibility_edges(const struct flexibility *flexibility);
 
-/* Flexibility at up to FLEXIBILITY_BLOCK places, solved for together. */
+/* Flexibility at places, solved for together: all of one number of loads, which times their count
+ * is at most FLEXIBILITY_BLOCK. */
 enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t count,
                                       const struct flexibility_place *places,
                                       struct flexibility_answer *answers, struct fault *fault);
@@ -73,13 +82,13 @@ double flexibility_slope(double young, double poisson, double mean_curvature);
  * normal to the surface everywhere, which tilts it, m/N. */
 double flexibility_of_contact(double young, double poisson, double mean_curvature);
 
-/* Displacement of a place along its inward normal in a removed mode, 1/sqrt(kg). */
+/* Displacement of a place along one of its loads in a removed mode, 1/sqrt(kg). */
 double flexibility_mode(const struct flexibility *flexibility, size_t mode,
-                        const struct flexibility_place *place);
+                        const struct flexibility_place *place, int load);
 
-/* How far the force at places[solved] of the last flexibility_solve moves another place along the
- * place's inward normal, the half-space's field included, without rigid motion and removed modes,
- * m/N. */
+/* How far the normal force at places[solved] of the last flexibility_solve moves another place
+ * along the place's inward normal, the half-space's field included, without rigid motion and
+ * removed modes, m/N. */
 double flexibility_response(const struct flexibility *flexibility, size_t solved,
                             const struct flexibility_place *other);
 

@@ -413,14 +413,22 @@ static void differentiate_face(int count, const double (*nodes)[3], double u, do
     }
 }
 
-/* half the trace of the second fundamental form in the metric of the first */
-static double mean_curvature_of(double derivative[5][3], const double normal[3])
+/* The second fundamental form as a tensor: by the dual base of the tangents. */
+static void curvature_of(double derivative[5][3], const double normal[3], double curvature[9])
 {
     const double *a = derivative[0], *b = derivative[1];
-    double e = dot3(a, a), f = dot3(a, b), g = dot3(b, b);
+    double e = dot3(a, a), f = dot3(a, b), g = dot3(b, b), det = e * g - f * f, dual[2][3];
     double l = dot3(derivative[2], normal), m = dot3(derivative[3], normal);
     double n = dot3(derivative[4], normal);
-    return -0.5 * (e * n - 2.0 * f * m + g * l) / (e * g - f * f);
+    for (int k = 0; k < 3; k++) {
+        dual[0][k] = (g * a[k] - f * b[k]) / det;
+        dual[1][k] = (e * b[k] - f * a[k]) / det;
+    }
+    for (int k = 0; k < 9; k++) {
+        int i = k / 3, j = k % 3;
+        curvature[k] = -(l * dual[0][i] * dual[0][j] + n * dual[1][i] * dual[1][j] +
+                         m * (dual[0][i] * dual[1][j] + dual[1][i] * dual[0][j]));
+    }
 }
 
 /* Least radius, and the mean of the radius' logarithm over the angle, of the face's rim as seen
@@ -530,6 +538,45 @@ double flexibility_edges_known(const struct flexibility_edges *edges, size_t fac
     return KNOWN_FROM * edges->reach[face];
 }
 
+static void place_tangents(struct flexibility_place *place)
+{
+    const double *n = place->load.inward;
+    double axis[3] = {0.0};
+    axis[fabs(n[0]) < 0.6 ? 0 : 1] = 1.0;
+    cross3(n, axis, place->along[0]);
+    scale3(1.0 / norm3(place->along[0]), place->along[0], place->along[0]);
+    cross3(n, place->along[0], place->along[1]);
+}
+
+const double *flexibility_place_direction(const struct flexibility_place *place, int load)
+{
+    return load == 0 ? place->load.inward : place->along[load - 1];
+}
+
+void flexibility_place_field(const struct flexibility_place *place, int load, const double x[3],
+                             double displacement[3], double stress[6])
+{
+    if (load == 0)
+        boussinesq3_field(&place->load, x, displacement, stress);
+    else
+        cerruti3_field(&place->load, place->along[load - 1], x, displacement, stress);
+}
+
+void flexibility_place_added_stress(const struct flexibility_place *place, int load,
+                                    const double x[3], double stress[6])
+{
+    if (load == 0)
+        boussinesq3_added_stress(&place->load, x, stress);
+    else
+        cerruti3_added_stress(&place->load, place->along[load - 1], x, stress);
+}
+
+double flexibility_place_added(const struct flexibility_place *place, int load)
+{
+    return load == 0 ? boussinesq3_added_displacement(&place->load)
+                     : cerruti3_added_displacement(&place->load);
+}
+
 struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
                                                 const struct flexibility_edges *edges, size_t face,
                                                 double u, double v)
@@ -552,10 +599,13 @@ struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
     place.load.young = material->young;
     place.load.poisson = material->poisson;
     place.load.reach = find_reach(rule, &place.load);
+    place.loads = 1;
+    place_tangents(&place);
 
     /* the face about it */
     differentiate_face(f->count, nodes, u, v, derivative);
-    place.bend = place.flat ? 0.0 : mean_curvature_of(derivative, normal);
+    if (!place.flat)
+        curvature_of(derivative, normal, place.curvature);
     measure_rim(f->count, derivative, u, v, &least, &place.rim);
     place.cut = place.flat ? 0.0 : CUT * least;
     place.edge = flexibility_edges_distance(edges, f->patch, place.load.point);

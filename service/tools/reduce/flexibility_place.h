@@ -54,19 +54,37 @@ void surface_rule_split(const struct surface_triangle *triangle, struct surface_
 /* A sphere that holds points: the centre is their mean; returns the radius. */
 double surface_rule_sphere(size_t count, double points[][3], double centre[3]);
 
+/* Loads at a place: along the inward normal of the mesh's own face, and along both tangents. */
+enum { FLEXIBILITY_LOADS = 3 };
+
 struct flexibility_place {
     size_t face;
     double u, v;             /* local coordinates */
-    struct boussinesq3 load; /* along the inward normal of the mesh's own face */
+    struct boussinesq3 load; /* along the inward normal */
+    double along[2][3];      /* tangents, unit */
+    int loads;               /* wanted: the normal one (1), or all */
     size_t part;             /* of the mesh: the load has its material */
     bool flat;               /* the face is plane */
-    double bend;             /* mean curvature of the mesh's face, > 0 where convex, 1/m */
+    double curvature[9];     /* of the mesh's face, > 0 where convex, 1/m */
     double rim;              /* the face's radius about the point: mean of its logarithm, m */
     double cut;              /* curved: no energy is counted within this radius, m */
     double edge;             /* distance to the nearest sharp edge, INFINITY: none, m */
     double wall;             /* how thick the body is there, INFINITY: cannot be seen, m */
     double element;          /* mean edge of the face, m */
 };
+
+/* The direction of a load. */
+const double *flexibility_place_direction(const struct flexibility_place *place, int load);
+
+/* The half-space's field of a load (boussinesq3.h); NULL: not wanted. */
+void flexibility_place_field(const struct flexibility_place *place, int load, const double x[3],
+                             double displacement[3], double stress[6]);
+
+/* Stress that the reach adds to it, and what it adds to the loaded point's displacement along the
+ * load, m/N; no others. */
+void flexibility_place_added_stress(const struct flexibility_place *place, int load,
+                                    const double x[3], double stress[6]);
+double flexibility_place_added(const struct flexibility_place *place, int load);
 
 /* The wall is too thin for the mesh: elements 2.5 times as long and longer. Of the compliance of
  * plates of 1 and 2 mm without their modes the mesh's own solution misses 2 % with elements 1.5
@@ -105,8 +123,8 @@ double flexibility_edges_distance(const struct flexibility_edges *edges, size_t 
  * of half a wall. */
 double flexibility_edges_known(const struct flexibility_edges *edges, size_t face);
 
-/* The place at (u, v) of a face. On a patch that is not plane it is moved off the face's rim, where
- * the mesh's surface has a kink. */
+/* The place at (u, v) of a face, for the normal load. On a patch that is not plane it is moved off
+ * the face's rim, where the mesh's surface has a kink. */
 struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
                                                 const struct flexibility_edges *edges, size_t face,
                                                 double u, double v);

@@ -381,7 +381,7 @@ static void give_back(struct sites *sites, size_t mode, double *shape)
 {
     double omega = sites->task->body.omega[mode];
     for (size_t i = 0; i < sites->count; i++)
-        shape[i] = flexibility_mode(sites->flexibility, mode, &sites->places[i]) / omega;
+        shape[i] = flexibility_mode(sites->flexibility, mode, &sites->places[i], 0) / omega;
     for (size_t i = 0; i < sites->count; i++) {
         sites->values[i] += shape[i] * shape[i];
         for (size_t j = 0; sites->between && j < sites->count; j++)
