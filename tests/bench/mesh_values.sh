@@ -4,14 +4,14 @@
 #
 # Bodies meshed by Gmsh, reduced and struck, beside numbers of other programs: what docs/lab/mesh.md states. Takes
 # some fifteen minutes of one core and 3 GB.
-# usage: mesh_values.sh BUILD OUTPUT [rod-end|patch|frequencies|rod|beam|plate|cylinder]...
+# usage: mesh_values.sh BUILD OUTPUT [rod-end|patch|frequencies|rod|beam|plate|cylinder|oblique]...
 # (default: all)
 set -eu
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 cd "$2"
 shift 2
-[ $# -gt 0 ] || set -- rod-end patch frequencies rod beam plate cylinder
+[ $# -gt 0 ] || set -- rod-end patch frequencies rod beam plate cylinder oblique
 export OMP_NUM_THREADS=1
 domain=$((100 + $$ % 100))
 daemon=
@@ -209,6 +209,45 @@ $steel
   part: {shape: mesh, file: cylinder.h5, sites: {end: {point: [73.68063, 0, 0]}}}
 END
     ask "compact cylinder" 0.3 ".9999; 161.4 us; 669 N"
+}
+
+# case, a body and its built-in twin, x of the place, velocity, coefficient: the impulses along both tangents
+slide() {
+    for body in $2 $3; do
+        cat >request.json <<JSON
+{"bodies": [{"id": "pebble", "position": [$4, 0, 0.016], "velocity": [$5]}, {"id": "$body"}],
+ "contacts": [{"a": 0, "b": 1, "point": [$4, 0, 0.01], "normal": [0, 0, 1], "tangent": [1, 0, 0], "friction": $6}],
+ "options": {"tolerance": 1e-5}}
+JSON
+        "$build/bin/percuss" query --local --catalogue oblique.yaml --request request.json --json 2>/dev/null |
+            awk -v name="$1 $body" '/^ *"impulse_tangential": \[/ && !t { getline; t = $1 + 0; getline; t = t " " ($1 + 0) }
+                END { gsub(",", "", name); print name ",,N s along and across," t }'
+    done
+}
+
+# the sides of a short cylinder and of a bar, obliquely, beside those of Ritz's method
+oblique() {
+    # shellcheck disable=SC2086
+    reduce short "$(bar 30 3)" $aluminium --site 11,0,10
+    # shellcheck disable=SC2086
+    reduce bar "$(bar 200 5)" $aluminium --modes 60 --site 62,0,10
+    cat >oblique.yaml <<END
+materials:
+  steel:     {young: 210 GPa, poisson: 0.30, density: 7800, yield: none}
+  aluminium: {young: 70 GPa, poisson: 0.33, density: 2700, yield: none}
+bodies:
+  pebble: {shape: sphere, material: steel, radius: 6 mm}
+  short: {shape: mesh, file: short.h5}
+  short-ritz: {shape: cylinder, material: aluminium, radius: 10 mm, length: 30 mm}
+  bar: {shape: mesh, file: bar.h5}
+  bar-ritz: {shape: cylinder, material: aluminium, radius: 10 mm, length: 200 mm}
+  bar-beam: {shape: beam, material: aluminium, radius: 10 mm, length: 200 mm, ends: free}
+END
+    for flight in "0.1, 0, -0.28;0.3" "0, 0.21, -0.21;0.2" "0.1, 0.11, -0.26;0.5"; do
+        slide "$flight" short short-ritz -0.004 "${flight%;*}" "${flight#*;}"
+        slide "$flight" bar bar-ritz -0.038 "${flight%;*}" "${flight#*;}"
+        slide "$flight" bar-beam "" -0.038 "${flight%;*}" "${flight#*;}"
+    done
 }
 
 echo "case,speed,value,first_impulse,first_length_us,first_peak,others"

@@ -60,7 +60,7 @@ struct layout {
 struct layout_flat {
     unsigned char *face_count, *face_material;
     unsigned *face_patch, *face_nodes;
-    float *normal, *curvature, *doubt;
+    float *normal, *curvature, *doubt, *tensor;
     double *flexibility, *slope;
     char (*names)[PERCUSS_ID_SIZE];
     double *young, *poisson, *density, *yield, *tangent;
@@ -199,6 +199,15 @@ static struct layout *list_faces(struct layout *next, struct mesh_body *body,
     next++->range = LAYOUT_OR_UNKNOWN;
     *next = layout_table_of("faces/flexibility_slope", "m/N", count, &CORNERS, &flat->slope);
     next++->range = LAYOUT_OR_UNKNOWN;
+    *next++ = (struct layout){.name = "faces/tensor",
+                              .unit = "m/N",
+                              .type = LAYOUT_REAL32,
+                              .range = LAYOUT_OR_UNKNOWN,
+                              .rank = 3,
+                              .extent = {count, &CORNERS, &SIX},
+                              .optional = true,
+                              .packed = true,
+                              .array = (void **)&flat->tensor};
     return next;
 }
 
@@ -270,8 +279,8 @@ static void layout_flat_free(struct layout_flat *flat)
 {
     void *arrays[] = {flat->face_count, flat->face_material, flat->face_patch, flat->face_nodes,
                       flat->normal,     flat->curvature,     flat->doubt,      flat->flexibility,
-                      flat->slope,      flat->names,         flat->young,      flat->poisson,
-                      flat->density,    flat->yield,         flat->tangent};
+                      flat->slope,      flat->tensor,        flat->names,      flat->young,
+                      flat->poisson,    flat->density,       flat->yield,      flat->tangent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
 }
@@ -285,6 +294,7 @@ static void layout_pass(void *flat, void *member, size_t size, bool back)
         memcpy(flat, member, size);
 }
 
+/* Tensors that are not there are left. */
 static void pass_face(const struct layout_flat *flat, struct mesh_body_face *face, size_t f,
                       bool back)
 {
@@ -299,6 +309,8 @@ static void pass_face(const struct layout_flat *flat, struct mesh_body_face *fac
     layout_pass(flat->flexibility + f * NODES, face->flexibility, sizeof face->flexibility, back);
     layout_pass(flat->slope + f * NODES, face->flexibility_slope, sizeof face->flexibility_slope,
                 back);
+    if (flat->tensor)
+        layout_pass(flat->tensor + f * NODES * 6, face->tensor, sizeof face->tensor, back);
 }
 
 static void pass_material(const struct layout_flat *flat, struct material *material, size_t i,
@@ -328,6 +340,7 @@ static void layout_flatten(const struct mesh_body *body, struct layout_flat *fla
 static void layout_unflatten(const struct layout_flat *flat, struct mesh_body *body)
 {
     body->supported = flat->supported != 0;
+    body->all_ways = flat->tensor != NULL;
     body->removed = flat->removed;
     for (size_t f = 0; f < body->face_count; f++)
         pass_face(flat, &body->faces[f], f, true);
@@ -545,7 +558,8 @@ static enum percuss_status write_layout(const struct body_file *file, const stru
     layout_flatten(&shadow, &flat);
     size_t count = layout_list(&shadow, &flat, list);
     for (size_t i = 0; !status && i < count; i++)
-        status = write_dataset(file, &list[i]);
+        if (list[i].array != (void **)&flat.tensor || shadow.all_ways)
+            status = write_dataset(file, &list[i]);
     if (!status && !(write_attribute(file->id, "format", FORMAT) && write_version(file->id) &&
                      write_attribute(file->id, "hash", body->hash) &&
                      write_attribute(file->id, "source", body->source) &&
@@ -714,10 +728,19 @@ static enum percuss_status read_dataset_numbers(const struct body_file *file,
     return PERCUSS_OK;
 }
 
+/* Whether the file has a dataset; asking for one in a group that is missing is an error of HDF5's.
+ */
+static bool is_there(const struct body_file *file, const char *name)
+{
+    char group[32];
+    snprintf(group, sizeof group, "%.*s", (int)strcspn(name, "/"), name);
+    return H5Lexists(file->id, group, H5P_DEFAULT) > 0 &&
+           H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+}
+
 static enum percuss_status read_dataset(const struct body_file *file, const struct layout *layout)
 {
-    if (layout->optional && (H5Lexists(file->id, "sites", H5P_DEFAULT) <= 0 ||
-                             H5Lexists(file->id, layout->name, H5P_DEFAULT) <= 0))
+    if (layout->optional && !is_there(file, layout->name))
         return PERCUSS_OK;
     hid_t set = H5Dopen2(file->id, layout->name, H5P_DEFAULT);
     if (set < 0)

@@ -239,18 +239,54 @@ double cerruti3_added_displacement(const struct boussinesq3 *load)
     return 3.0 * boussinesq3_added_displacement(load);
 }
 
+/* Adds `even` times the mean curvature alike in all directions of the surface, and `bent` times
+ * what the curvature has beside its mean. */
+static void add_surface_tensor(const double n[3], const double curvature[9], double even,
+                               double bent, double tensor[6])
+{
+    double mean = 0.5 * (curvature[0] + curvature[4] + curvature[8]);
+    for (int k = 0; k < 6; k++) {
+        int i = ROW[k], j = COLUMN[k];
+        double flat = mean * ((i == j) - n[i] * n[j]);
+        tensor[k] += even * flat + bent * (curvature[3 * i + j] - flat);
+    }
+}
+
 void cerruti3_add_slope(double young, double poisson, const double normal[3],
                         const double curvature[9], double factor, double tensor[6])
 {
     double unit = factor * (1.0 + poisson) / (2.0 * M_PI * young);
-    double mean = 0.5 * (curvature[0] + curvature[4] + curvature[8]);
-    double even = (1.25 + poisson * (3.0 * poisson - 2.5)) * mean;
-    double bent = 0.25 + poisson * (1.5 - poisson);
-    for (int k = 0; k < 6; k++) {
-        int i = ROW[k], j = COLUMN[k];
-        tensor[k] +=
-            unit * (even * ((i == j) - normal[i] * normal[j]) + bent * curvature[3 * i + j]);
-    }
+    add_surface_tensor(normal, curvature, unit * (1.5 + poisson * (2.0 * poisson - 1.0)),
+                       unit * (0.25 + poisson * (1.5 - poisson)), tensor);
+}
+
+/* Means of ln(a/r) over pairs of points of a contact: of a traction like that of a contact that
+ * sticks, (1 - r^2)^(-1/2), 3/2 - 2 ln 2, and of Hertz's, 7/4 - 2 ln 2. */
+static const double PAIRS_STUCK = 1.5 - 2.0 * M_LN2, PAIRS_SLID = 1.75 - 2.0 * M_LN2;
+
+/* A traction's part exp(i n angle)/r and a displacement's exp(-i n angle)/r about a point at the
+ * distance r, integrated over a circle of the radius 1, are 2 pi (ln(1/r) - gamma - digamma((n +
+ * 1)/2)): 2 ln 2 for n = 0, 2 ln 2 - 2 for n = 2, where the integral of both about one point has
+ * ln(1/r) alone. Of S the part of n = 0 is S0 = (1 + nu)/(2 pi E) (1 - nu/2) (3/2 H (1 - n n^T) +
+ * (1/4 + nu) (k - H (1 - n n^T))), all else is of n = 2. */
+void cerruti3_add_contact(double young, double poisson, const double normal[3],
+                          const double curvature[9], double tensor[6])
+{
+    const double first = 2.0 * M_LN2, second = first - 2.0;
+    double unit = (first - second) * (1.0 + poisson) / (2.0 * M_PI * young) * (1.0 - 0.5 * poisson);
+    cerruti3_add_slope(young, poisson, normal, curvature, second + 0.5 * (PAIRS_STUCK + PAIRS_SLID),
+                       tensor);
+    add_surface_tensor(normal, curvature, 1.5 * unit, (0.25 + poisson) * unit, tensor);
+}
+
+double cerruti3_contact_doubt(double young, double poisson, double curvature, double mean)
+{
+    const double none[3] = {0.0, 0.0, 1.0};
+    const double bent[9] = {curvature, 0.0, 0.0, 0.0, 2.0 * mean - curvature};
+    double slope[6] = {0.0};
+    double tilt = (1.0 + poisson) * (1.0 - 2.0 * poisson) / (4.0 * M_PI * young);
+    cerruti3_add_slope(young, poisson, none, bent, 1.0, slope);
+    return 0.5 * (PAIRS_SLID - PAIRS_STUCK) * fabs(slope[0]) + tilt * fabs(curvature);
 }
 
 void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3], double stress[6])

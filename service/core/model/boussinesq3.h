@@ -50,12 +50,22 @@ double cerruti3_added_displacement(const struct boussinesq3 *load);
  * flexibility along the surface that changes by S ln(r'/r) from the radius r' to r: the integral of
  * both along a ring, with the curvatures k (> 0 where convex) and their mean H
  *
- *     S = (1 + nu)/(2 pi E) ((5/4 - 5/2 nu + 3 nu^2) H (1 - n n^T) + (1/4 + 3/2 nu - nu^2) k).
+ *     S = (1 + nu)/(2 pi E) ((3/2 - nu + 2 nu^2) H (1 - n n^T) + (1/4 + 3/2 nu - nu^2) (k - H (1 -
+ *         n n^T))).
  *
  * Adds `factor` S to the tensor xx yy zz xy yz zx; curvature: row-major, across the unit `normal`.
  */
 void cerruti3_add_slope(double young, double poisson, const double normal[3],
                         const double curvature[9], double factor, double tensor[6]);
+
+/* Adds the flexibility of a contact of the radius a less C(a): the mean over pairs of its points,
+ * half way between a traction that sticks throughout and one that slides. */
+void cerruti3_add_contact(double young, double poisson, const double normal[3],
+                          const double curvature[9], double tensor[6]);
+
+/* What that may be wrong by, m/N: of the traction's kind, and as it is tilted with the surface,
+ * along a direction of the given curvature; `mean`: H. */
+double cerruti3_contact_doubt(double young, double poisson, double curvature, double mean);
 
 /* t = s n */
 static inline void boussinesq3_traction(const double s[6], const double n[3], double t[3])

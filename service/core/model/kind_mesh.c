@@ -252,6 +252,8 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
         .slope = spot.slope * mesh_ratio_flexibility(body),
         .remark = site && site->remark[0] ? site->remark : NULL,
     };
+    for (int k = 0; k < 6; k++)
+        face.spot.tensor[k] = spot.tensor[k] * mesh_ratio_flexibility(body);
     return face;
 }
 
@@ -298,6 +300,8 @@ static void mesh_kind_load(const struct body *body, const struct site *site,
     facet_shape(face->count, site->spot.u, site->spot.v, family->mesh.share, NULL, NULL);
     memcpy(family->mesh.direction, direction, sizeof family->mesh.direction);
     to_mesh(body, site->point, family->mesh.point);
+    family->mesh.all_ways = body->mesh->all_ways && !isnan(site->spot.tensor[0]);
+    memcpy(family->mesh.tensor, site->spot.tensor, sizeof family->mesh.tensor);
     if (tangential)
         mesh_family_along(body, site, &family->mesh);
 }

@@ -11,6 +11,8 @@
 /* Rounding of a tensor's symmetry, and of a unit vector's length in float. */
 static const double ASYMMETRY = 1e-6;
 static const double UNIT_LENGTH = 1e-4;
+/* And of a tensor and a normal in float. */
+static const double SAME_FLEXIBILITY = 1e-5;
 
 static enum percuss_status check_inertia(const struct mesh_body *body, struct fault *fault)
 {
@@ -89,6 +91,55 @@ static enum percuss_status check_face(const struct mesh_body *body, size_t f, st
     return PERCUSS_OK;
 }
 
+/* A contact's own compliance, Hertz's pressure on a half-space, is 3/5 (1 - nu^2)/(E radius). */
+static const double HERTZ_MEAN = 0.6;
+
+bool mesh_body_tensor_possible(const struct mesh_body *body, const struct mesh_body_face *face,
+                               int node)
+{
+    const float *t = face->tensor[node];
+    const struct material *material = &body->materials[face->material];
+    double own =
+        HERTZ_MEAN * (1.0 - material->poisson * material->poisson) / (material->young * body->cut);
+    double x = t[0] + own, y = t[1] + own, z = t[2] + own, xy = t[3], yz = t[4], zx = t[5];
+    /* Sylvester */
+    return !(body->cut > 0.0) ||
+           (x > 0.0 && x * y > xy * xy &&
+            x * (y * z - yz * yz) - xy * (xy * z - yz * zx) + zx * (xy * yz - y * zx) > 0.0);
+}
+
+/* The tensors of a face against its flexibilities. */
+static enum percuss_status check_tensors(const struct mesh_body *body, size_t f,
+                                         struct fault *fault)
+{
+    const struct mesh_body_face *face = &body->faces[f];
+    for (int i = 0; i < face->count; i++) {
+        double n[3], tensor[6], size = 0.0, moved = 0.0;
+        for (int k = 0; k < 3; k++)
+            n[k] = face->normal[i][k];
+        for (int k = 0; k < 6; k++) {
+            tensor[k] = face->tensor[i][k];
+            size += fabs(tensor[k]);
+        }
+        if (isnan(size))
+            continue;
+        mesh_body_set_normal(n, face->flexibility[i], tensor);
+        for (int k = 0; k < 6; k++)
+            moved += fabs(tensor[k] - (double)face->tensor[i][k]);
+        if (!(moved <= SAME_FLEXIBILITY * size))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "faces/tensor: at node %d of face %zu: along the normal it must be "
+                             "faces/flexibility, %g m/N",
+                             i, f, face->flexibility[i]);
+        if (!mesh_body_tensor_possible(body, face, i))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "faces/tensor: at node %d of face %zu: with a contact of the radius "
+                             "`cut` it must be positive definite",
+                             i, f);
+    }
+    return PERCUSS_OK;
+}
+
 enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *fault)
 {
     enum percuss_status status = check_inertia(body, fault);
@@ -100,12 +151,24 @@ enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *
         status = fault_set(fault, PERCUSS_BAD_REQUEST, "faces: none: must be one at least");
     for (size_t f = 0; !status && f < body->face_count; f++)
         status = check_face(body, f, fault);
+    for (size_t f = 0; !status && body->all_ways && f < body->face_count; f++)
+        status = check_tensors(body, f, fault);
     for (size_t s = 0; !status && s < body->site_count; s++)
         if (body->site_face[s] >= body->face_count)
             status = fault_set(fault, PERCUSS_BAD_REQUEST,
                                "sites/face: %u: must be below the number of faces, %zu",
                                body->site_face[s], body->face_count);
     return status;
+}
+
+void mesh_body_set_normal(const double n[3], double value, double tensor[6])
+{
+    static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
+    double more = value;
+    for (int k = 0; k < 6; k++)
+        more -= (k < 3 ? 1.0 : 2.0) * tensor[k] * n[ROW[k]] * n[COLUMN[k]];
+    for (int k = 0; k < 6; k++)
+        tensor[k] += more * n[ROW[k]] * n[COLUMN[k]];
 }
 
 void mesh_body_free(struct mesh_body *body)

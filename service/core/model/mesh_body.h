@@ -30,6 +30,9 @@ struct mesh_body_face {
     /* and its change with the logarithm of the contact's radius, m/N: C(a) = flexibility +
      * slope ln(cut / a) */
     double flexibility_slope[MESH_BODY_FACE_NODES];
+    /* the same between all directions, beyond the half-space's under a normal and a tangential
+     * force: xx yy zz xy yz zx, m/N; along the normal it is `flexibility`. NAN: not known. */
+    float tensor[MESH_BODY_FACE_NODES][6];
 };
 
 /* A box about faces, or about the two boxes [first] and [first + 1]. */
@@ -68,6 +71,7 @@ struct mesh_body {
     float *shapes;       /* [node_count][3][mode_count], 1/sqrt(kg) */
     size_t face_count;
     struct mesh_body_face *faces;
+    bool all_ways; /* the faces' tensors are there */
     /* flexibility between places, for several contacts: the response at one surface site to a
      * unit normal force at another, without the first `removed` modes, m/N; good from `near` on */
     size_t site_count;
@@ -89,6 +93,14 @@ struct mesh_body {
 /* Whether the data of a file are consistent: PERCUSS_OK, or PERCUSS_BAD_REQUEST with the dataset
  * and the allowed values. The reader of the file checks single numbers. */
 enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *fault);
+
+/* Whether a contact of the radius body->cut would have a positive compliance in all directions at a
+ * node of a face, whose tensor is known there. */
+bool mesh_body_tensor_possible(const struct mesh_body *body, const struct mesh_body_face *face,
+                               int node);
+
+/* Gives a symmetric tensor, xx yy zz xy yz zx, the value n.tensor n along a unit vector. */
+void mesh_body_set_normal(const double n[3], double value, double tensor[6]);
 
 /* Frees a body and its arrays, all of which came from malloc; NULL is allowed. */
 void mesh_body_free(struct mesh_body *body);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/vector_clones.h"
+#include "model/boussinesq3.h"
 #include "model/mesh_surface.h"
 #include "model/modal_basis.h"
 #include "model/ritz.h"
@@ -344,43 +345,85 @@ static struct mesh_push push_of(const struct mesh_load *load)
     return push;
 }
 
-/* Half-spaces are singular to normal and tangential forces alike, and modes cut off either: what
- * the modes up to a frequency leave of the tangential flexibility is that of the normal one to 0.83
- * ... 1.27 in cubes, bars, plates, discs, on sides and ends (by ritz_tensor). */
-static const double LEFT_ALONG = 0.3;
-/* A curved surface changes the tangential flexibility with the logarithm of the contact's radius by
- * up to (1 + nu) 9/4/pi of its mean curvature over E (ritz_tensor_narrow); contacts are this much
- * narrower than `cut`, as a logarithm. */
-static const double NARROWER = 2.0;
-
-void mesh_family_along(const struct body *body, const struct site *site, struct mesh_load *load)
-{
-    const struct mesh_body *mesh = body->mesh;
-    const struct material *material = &mesh->materials[mesh->faces[load->face].material];
-    struct family_load along = {.acts = true, .mesh = *load}, normal = along;
-    scale3(-1.0, site->outward, normal.mesh.direction);
-    double left =
-        load->flexibility - held_by(body, mesh->removed, mesh->mode_count, &normal, &normal);
-    double young = material->young * mesh_ratio_of(body).young;
-    double bend = 0.5 * fabs(site->curvature[0] + site->curvature[4] + site->curvature[8]);
-    load->along = true;
-    load->flexibility = left + held_by(body, mesh->removed, mesh->mode_count, &along, &along);
-    load->unknown = LEFT_ALONG * fabs(left) +
-                    NARROWER * 2.25 * (1.0 + material->poisson) * bend / (M_PI * young);
-}
-
-static bool same_place(const struct mesh_load *i, const struct mesh_load *j)
-{
-    return i->all_ways && j->all_ways && i->axis == j->axis && i->side == j->side &&
-           i->face == j->face && memcmp(i->point, j->point, sizeof i->point) == 0;
-}
-
 double mesh_load_between(const struct mesh_load *i, const struct mesh_load *j)
 {
     const double *t = i->tensor, *a = i->direction, *b = j->direction;
     return t[0] * a[0] * b[0] + t[1] * a[1] * b[1] + t[2] * a[2] * b[2] +
            t[3] * (a[0] * b[1] + a[1] * b[0]) + t[4] * (a[1] * b[2] + a[2] * b[1]) +
            t[5] * (a[2] * b[0] + a[0] * b[2]);
+}
+
+/* Files without tensors. Half-spaces are singular to normal and tangential forces alike, and modes
+ * cut off either: what the modes up to a frequency leave of the tangential flexibility is that of
+ * the normal one to 0.83 ... 1.27 in cubes, bars, plates, discs, on sides and ends (by
+ * ritz_tensor).
+ */
+static const double LEFT_ALONG = 0.3;
+/* A curved surface changes the tangential flexibility with the logarithm of the contact's radius by
+ * up to (1 + nu) 9/4/pi of its mean curvature over E (ritz_tensor_narrow); contacts are this much
+ * narrower than `cut`, as a logarithm. */
+static const double NARROWER = 2.0;
+
+/* The material of a load's face, with the body's modulus. */
+static struct material material_of(const struct body *body, const struct mesh_load *load)
+{
+    const struct mesh_body *mesh = body->mesh;
+    struct material material = mesh->materials[mesh->faces[load->face].material];
+    material.young *= mesh_ratio_of(body).young;
+    return material;
+}
+
+static double mean_curvature(const struct site *site)
+{
+    return 0.5 * (site->curvature[0] + site->curvature[4] + site->curvature[8]);
+}
+
+static void estimate_along(const struct body *body, const struct site *site, struct mesh_load *load)
+{
+    const struct mesh_body *mesh = body->mesh;
+    const struct material material = material_of(body, load);
+    struct family_load along = {.acts = true, .mesh = *load}, normal = along;
+    scale3(-1.0, site->outward, normal.mesh.direction);
+    double left =
+        load->flexibility - held_by(body, mesh->removed, mesh->mode_count, &normal, &normal);
+    load->flexibility = left + held_by(body, mesh->removed, mesh->mode_count, &along, &along);
+    load->unknown = LEFT_ALONG * fabs(left) + NARROWER * 2.25 * (1.0 + material.poisson) *
+                                                  fabs(mean_curvature(site)) /
+                                                  (M_PI * material.young);
+}
+
+void mesh_family_along(const struct body *body, const struct site *site, struct mesh_load *load)
+{
+    load->along = true;
+    if (!load->all_ways) {
+        estimate_along(body, site, load);
+        return;
+    }
+    const struct material material = material_of(body, load);
+    double image[3];
+    rotate3(site->curvature, load->direction, image);
+    load->flexibility = mesh_load_between(load, load);
+    load->unknown = cerruti3_contact_doubt(material.young, material.poisson,
+                                           dot3(load->direction, image), mean_curvature(site));
+}
+
+void mesh_family_narrow(const struct body *body, const struct site *site, double patch,
+                        struct mesh_load *load)
+{
+    const struct material material = material_of(body, load);
+    double cut = body->scale * body->mesh->cut;
+    if (!load->all_ways || !(cut > 0.0 && patch > 0.0))
+        return;
+    cerruti3_add_slope(material.young, material.poisson, site->outward, site->curvature,
+                       log(cut / patch), load->tensor);
+    if (load->along)
+        load->flexibility = mesh_load_between(load, load);
+}
+
+static bool same_place(const struct mesh_load *i, const struct mesh_load *j)
+{
+    return i->all_ways && j->all_ways && i->axis == j->axis && i->side == j->side &&
+           i->face == j->face && memcmp(i->point, j->point, sizeof i->point) == 0;
 }
 
 /* Box: at one place the flexibility of all modes, between two places the sum over its own modes.
@@ -393,13 +436,15 @@ static double mesh_family_compliance(const struct body *body, size_t family,
     (void)family;
     const struct mesh_body *mesh = body->mesh;
     if (i != j && same_place(&i->mesh, &j->mesh))
-        return mesh_load_between(&i->mesh, &j->mesh);
+        return mesh_load_between(&i->mesh, &j->mesh) +
+               (mesh ? held_by(body, 0, mesh->removed, i, j) : 0.0);
     if (body->ritz)
         return i == j ? i->mesh.flexibility : held_by(body, 0, mesh_family_most(body), i, j);
     double removed = held_by(body, 0, mesh->removed, i, j);
     if (i == j)
         return i->mesh.flexibility + removed;
-    /* the file knows nothing of forces along the surface but its modes, whose sum converges */
+    /* between places the file knows nothing of forces along the surface but its modes, whose sum
+     * converges */
     if (i->mesh.along || j->mesh.along)
         return removed + held_by(body, mesh->removed, mesh->mode_count, i, j);
     const struct mesh_push at_i = push_of(&i->mesh), at_j = push_of(&j->mesh);

@@ -23,8 +23,13 @@ void mesh_family_load(const struct body *body, const struct site *site, const do
 const char *mesh_family_theory(const struct body *body);
 
 /* Completes the load of a force along a mesh's surface at a site: its regular flexibility, and the
- * uncertainty of that. */
+ * uncertainty of that; without a tensor it is taken for that of the normal. */
 void mesh_family_along(const struct body *body, const struct site *site, struct mesh_load *load);
+
+/* Makes the tensor of a load at a site of a mesh that of a contact of the radius `patch` (m), and a
+ * tangential load's flexibility that of it; nothing without a tensor. */
+void mesh_family_narrow(const struct body *body, const struct site *site, double patch,
+                        struct mesh_load *load);
 
 /* The regular flexibility between two loads at one place of a body whose tensor is known. */
 double mesh_load_between(const struct mesh_load *i, const struct mesh_load *j);

@@ -374,6 +374,8 @@ struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, do
         if (fabs(shape[i]) > NO_SHARE) {
             spot.flexibility += shape[i] * at->flexibility[i];
             spot.slope += shape[i] * at->flexibility_slope[i];
+            for (int k = 0; k < 6; k++)
+                spot.tensor[k] += body->all_ways ? shape[i] * (double)at->tensor[i][k] : NAN;
         }
     }
     /* a unit normal, and a tensor across it: xx yy zz xy yz zx */
@@ -383,6 +385,7 @@ struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, do
     for (int k = 0; k < 9; k++)
         spot.curvature[k] = tensor[PLACES[k]];
     tensor_lay_across(spot.normal, spot.curvature);
+    mesh_body_set_normal(spot.normal, spot.flexibility, spot.tensor);
     return spot;
 }
 

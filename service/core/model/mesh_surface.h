@@ -26,6 +26,7 @@ struct mesh_spot {
     double doubt;        /* of the normal, rad */
     double flexibility;  /* m/N, see struct mesh_body_face; NAN: not known */
     double slope;
+    double tensor[6]; /* the same between all directions; NAN: not known */
 };
 
 /* Makes the search structures of a body. False: out of memory. */

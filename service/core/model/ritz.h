@@ -74,8 +74,8 @@ bool ritz_tensor(const struct ritz *ritz, int axis, int side, const double point
 static const double RITZ_CUT = 0.02; /* diameters */
 double ritz_slope(const struct ritz *ritz);
 
-/* That of the tensor, times `logarithm`, added to it in the two directions along a cylinder's side.
- */
+/* The tensor of a place on a cylinder's side for a contact that is narrower than RITZ_CUT by a
+ * logarithm of the radius, in the two directions along the side (cerruti3_add_slope, _contact). */
 void ritz_tensor_narrow(const struct ritz *ritz, const double point[3], double logarithm,
                         double tensor[6]);
 

@@ -671,6 +671,7 @@ void ritz_tensor_narrow(const struct ritz *ritz, const double point[3], double l
     for (int i = 0; i < 9; i++)
         curvature[i] = bend * about[i / 3] * about[i % 3];
     cerruti3_add_slope(1.0, ritz->poisson, normal, curvature, logarithm, tensor);
+    cerruti3_add_contact(1.0, ritz->poisson, normal, curvature, tensor);
 }
 
 /* Of a plate hit in its middle the flexibility lacks 0.11 exp(-4 (s - 1))/(E h) with s polynomials

@@ -29,6 +29,7 @@ struct face_spot {
     bool fitted;        /* the curvature is that of a fit, not declared */
     double flexibility; /* regular, m/N, see struct mesh_body_face; NAN: not known */
     double slope;
+    double tensor[6];   /* the same between all directions, body frame; NAN: not known */
     const char *remark; /* of the named site there; NULL: none */
 };
 

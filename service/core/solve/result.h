@@ -37,7 +37,8 @@ enum warning_kind {
     WARNING_BREADTH = 24,
     WARNING_TURN = 26,
     WARNING_JAM,
-    WARNING_KINDS
+    WARNING_ALONG,
+    WARNING_KINDS = 30
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -328,6 +328,30 @@ static void find_turn(const struct problem *problem, const struct impact_outcome
         c, turn, way, radius);
 }
 
+/* A mesh whose flexibility along the surface is taken for that across it (mesh_family_along). */
+static void find_along(const struct problem *problem, size_t c, struct warnings *warnings)
+{
+    const struct contact_friction *friction = oblique_of(problem, c);
+    for (unsigned which = 0; friction && which < 2; which++) {
+        const struct body *body = problem_body(problem, c, which);
+        const struct mesh_load *along = &friction->sides[0][which].load.family[0].mesh;
+        if (!body->mesh || !body_is_flexible(body) || along->all_ways)
+            continue;
+        if (!body->mesh->all_ways)
+            warnings_add(warnings, WARNING_ALONG + which,
+                         "contacts[%zu].friction: the file of %s does not say how it gives way "
+                         "along its surface: taken as across it, to 30 %%; percuss-reduce of this "
+                         "release writes that: reduce its mesh again",
+                         c, body->id);
+        else
+            warnings_add(warnings, WARNING_ALONG + which,
+                         "contacts[%zu].friction: the mesh of %s is too coarse there to say how it "
+                         "gives way along its surface: taken as across it, to 30 %%; give "
+                         "percuss-reduce --site there, or smaller elements",
+                         c, body->id);
+    }
+}
+
 /* Painleve: friction that presses the bodies together more than the rigid masses part them. */
 static void find_jam(const struct problem *problem, size_t c, struct warnings *warnings)
 {
@@ -400,6 +424,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     if (problem->friction_count) {
         find_turn(problem, outcome, c, axes[0], warnings);
         find_jam(problem, c, warnings);
+        find_along(problem, c, warnings);
     }
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);

@@ -118,10 +118,30 @@ static bool lend_load(struct problem *problem, size_t c, int which)
     return good;
 }
 
+/* The tensors of meshes are known for one radius; their contacts with friction have another. */
+static void narrow_meshes(struct problem *problem)
+{
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        struct contact_friction *friction = &problem->friction[i];
+        double patch = contact_patch_radius(problem, friction->contact);
+        for (int which = 0; which < 2; which++) {
+            struct contact_side *side = &problem->sides[friction->contact][which];
+            const struct body *body = problem->bodies[side->body];
+            if (!body->mesh || !side->load.family[0].acts)
+                continue;
+            mesh_family_narrow(body, &side->site, patch, &side->load.family[0].mesh);
+            for (int t = 0; t < 2; t++)
+                mesh_family_narrow(body, &side->site, patch,
+                                   &friction->sides[t][which].load.family[0].mesh);
+        }
+    }
+}
+
 enum percuss_status vibration_lend(struct problem *problem, struct ritz_store *boxes,
                                    struct pace *pace, struct fault *fault)
 {
     bool good = true;
+    narrow_meshes(problem);
     for (size_t b = 0; good && b < problem->body_count; b++) {
         const struct body *body = problem->bodies[b];
         struct ritz_shape shape;

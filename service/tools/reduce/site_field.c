@@ -32,18 +32,25 @@ static const double BLUNT = 0.02;
 /* cosine beyond which a place lies on another side of the body */
 static const double OTHER_SIDE = -0.2;
 
-/* Integral of ds / r^2 along the edges of the patch, over pi: 1/distance from a long straight edge,
- * and from two at a corner the sum of both. And its logarithm, the next one for a quarter of space
- * that is bent. The same of hollow edges. 0 without an edge. */
-static void edge_terms(const struct site_field *field, size_t patch, const double x[3],
-                       double terms[SITE_FIELD_EDGE_TERMS])
+/* Integrals of ds / r^2 along the edges of a patch, of the sharp ones and of the hollow ones: of 1,
+ * of the direction q to the edge in the surface, and of q q^T. */
+struct edge_sums {
+    double all[2], towards[2][3], across[2][6];
+};
+
+static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
+
+static void sum_edges(const struct site_field *field, size_t patch, const double x[3],
+                      const double normal[3], struct edge_sums *sums)
 {
     const struct flexibility_edges *edges = field->edges;
-    double sums[2] = {0.0}, blunt = BLUNT * field->size; /* sharp, hollow */
+    double blunt = BLUNT * field->size;
+    memset(sums, 0, sizeof *sums);
     /* each edge as two straight lines through its middle */
     for (size_t i = 0; i < edges->count; i++) {
         if (edges->patches[i] != patch)
             continue;
+        bool hollow = edges->hollow[i];
         for (int half = 0; half < 2; half++) {
             const double *from = edges->points[i][half], *to = edges->points[i][half + 1];
             /* along it and aside; no nearer than the edge is blunt */
@@ -53,15 +60,58 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
             double length = norm3(along), start = -dot3(offset, along) / length;
             double square = dot3(offset, offset) - start * start;
             double aside = sqrt(fmax(square, blunt * blunt));
-            sums[edges->hollow[i]] +=
-                (atan((start + length) / aside) - atan(start / aside)) / aside;
+            double sum = (atan((start + length) / aside) - atan(start / aside)) / aside;
+            sums->all[hollow] += sum;
+            /* the direction aside, in the surface */
+            add_scaled3(start / length, along, offset);
+            add_scaled3(-dot3(offset, normal), normal, offset);
+            scale3(-1.0 / aside, offset, offset);
+            add_scaled3(sum, offset, sums->towards[hollow]);
+            for (int k = 0; k < 6; k++)
+                sums->across[hollow][k] += sum * offset[ROW[k]] * offset[COLUMN[k]];
         }
     }
-    /* by the mesh's size, and the logarithm */
+}
+
+/* Over pi: 1/distance from a long straight edge, and from two at a corner the sum of both. And its
+ * logarithm, the next one for a quarter of space that is bent. The same of hollow edges. 0 without
+ * an edge. */
+static void normal_edge_terms(const struct site_field *field, const struct edge_sums *sums,
+                              double terms[4])
+{
     for (int k = 0; k < 2; k++) {
-        terms[2 * k] = field->size * sums[k] / M_PI;
-        terms[2 * k + 1] = sums[k] > 0.0 ? log(terms[2 * k]) : 0.0;
+        terms[2 * k] = field->size * sums->all[k] / M_PI;
+        terms[2 * k + 1] = sums->all[k] > 0.0 ? log(terms[2 * k]) : 0.0;
     }
+}
+
+/* The same two alike in all directions of the surface; of the direction to the edge alone; between
+ * it and the normal. */
+static void along_edge_terms(const struct site_field *field, const struct edge_sums *sums,
+                             const double n[3], double terms[8][6])
+{
+    double scalars[4];
+    normal_edge_terms(field, sums, scalars);
+    for (int h = 0; h < 2; h++)
+        for (int k = 0; k < 6; k++) {
+            int i = ROW[k], j = COLUMN[k];
+            double flat = (i == j) - n[i] * n[j], unit = field->size / M_PI;
+            const double *q = sums->towards[h];
+            terms[4 * h][k] = scalars[2 * h] * flat;
+            terms[4 * h + 1][k] = scalars[2 * h + 1] * flat;
+            terms[4 * h + 2][k] = unit * sums->across[h][k];
+            terms[4 * h + 3][k] = unit * (q[i] * n[j] + n[i] * q[j]);
+        }
+}
+
+/* Edge terms of a part: [terms][width]. */
+static void edge_terms(const struct site_field *field, const struct site_field_part *part,
+                       const struct edge_sums *sums, const double normal[3], double *terms)
+{
+    if (part->width == 1)
+        normal_edge_terms(field, sums, terms);
+    else
+        along_edge_terms(field, sums, normal, (double(*)[6])terms);
 }
 
 void site_field_free(struct site_field *field)
@@ -69,10 +119,34 @@ void site_field_free(struct site_field *field)
     free(field->faces);
     free(field->points);
     free(field->normals);
-    free(field->edge_terms);
-    free(field->coefficients);
-    free(field->values);
+    for (int p = 0; p < 2; p++) {
+        free(field->parts[p].values);
+        free(field->parts[p].edge_terms);
+        free(field->parts[p].coefficients);
+    }
     *field = (struct site_field){0};
+}
+
+/* Whether a place has a value. */
+static bool is_known(const struct site_field *field, size_t place)
+{
+    return !isnan(field->parts[0].values[place]);
+}
+
+/* Whether two parts of the mesh are equally stiff: a flexibility goes on from one to the other. */
+static bool is_alike(const struct solid_mesh *mesh, size_t one, size_t other)
+{
+    const struct material *a = &mesh->part[one].material, *b = &mesh->part[other].material;
+    return a->young == b->young && a->poisson == b->poisson;
+}
+
+/* the first part that is as stiff as this one */
+static size_t first_alike(const struct solid_mesh *mesh, size_t part)
+{
+    size_t first = 0;
+    while (!is_alike(mesh, first, part))
+        first++;
+    return first;
 }
 
 /* the nearest places, ascending in distance */
@@ -86,11 +160,11 @@ static void find_neighbours(const struct site_field *field, const struct surface
                             struct neighbours *found)
 {
     found->count = 0;
-    /* of the same patch and material, known, and not across a thin wall */
+    /* of the same patch and stiffness, known, and not across a thin wall */
     for (size_t i = 0; i < field->count; i++) {
-        if (field->faces[i]->patch != face->patch || field->faces[i]->part != face->part ||
-            i == without || isnan(field->values[i]) ||
-            dot3(field->normals[i], outward) < OTHER_SIDE)
+        if (field->faces[i]->patch != face->patch ||
+            !is_alike(field->mesh, field->faces[i]->part, face->part) || i == without ||
+            !is_known(field, i) || dot3(field->normals[i], outward) < OTHER_SIDE)
             continue;
         /* nearer than the farthest that is kept */
         double offset[3];
@@ -171,140 +245,208 @@ static bool weigh_neighbours(const struct site_field *field, const double x[3],
     return true;
 }
 
-/* a place's value and edge terms less those interpolated from its neighbours */
-static bool left_out(const struct site_field *field, size_t place,
-                     double differences[1 + SITE_FIELD_EDGE_TERMS])
+/* A place's neighbours and their weights. False: its own value is not known, or no other. */
+static bool weigh_others(const struct site_field *field, size_t place, struct neighbours *near_it,
+                         double weights[SITE_FIELD_NEIGHBOURS])
 {
-    struct neighbours near_it;
-    double weights[SITE_FIELD_NEIGHBOURS];
     find_neighbours(field, field->faces[place], field->points[place], field->normals[place], place,
-                    &near_it);
-    if (isnan(field->values[place]) ||
-        !weigh_neighbours(field, field->points[place], &near_it, weights))
-        return false;
-    differences[0] = field->values[place];
-    for (int t = 0; t < SITE_FIELD_EDGE_TERMS; t++)
-        differences[1 + t] = field->edge_terms[place][t];
-    for (size_t n = 0; n < near_it.count; n++) {
-        size_t other = near_it.places[n];
-        differences[0] -= weights[n] * field->values[other];
-        for (int t = 0; t < SITE_FIELD_EDGE_TERMS; t++)
-            differences[1 + t] -= weights[n] * field->edge_terms[other][t];
-    }
-    return true;
+                    near_it);
+    return is_known(field, place) &&
+           weigh_neighbours(field, field->points[place], near_it, weights);
+}
+
+/* A number of rows [count][width] at a place, less that interpolated from its neighbours. */
+static double left_out(const double *rows, size_t width, size_t place,
+                       const struct neighbours *near_it, const double *weights)
+{
+    double difference = rows[place * width];
+    for (size_t n = 0; n < near_it->count; n++)
+        difference -= weights[n] * rows[near_it->places[n] * width];
+    return difference;
+}
+
+/* The same of a part's number, [0], and of its edge terms. */
+static void part_left_out(const struct site_field_part *part, size_t number, size_t place,
+                          const struct neighbours *near_it, const double *weights,
+                          double differences[1 + SITE_FIELD_EDGE_TERMS])
+{
+    size_t stride = part->terms * part->width;
+    differences[0] = left_out(part->values + number, part->width, place, near_it, weights);
+    for (size_t t = 0; t < part->terms; t++)
+        differences[1 + t] =
+            left_out(part->edge_terms + t * part->width + number, stride, place, near_it, weights);
 }
 
 /* least squares of these differences, by patches; all that is summed is linear in the coefficients
  */
-static bool fit_edges(struct site_field *field, size_t patch_count)
+static bool fit_edges(const struct site_field *field, struct site_field_part *part,
+                      size_t patch_count)
 {
-    enum { N = SITE_FIELD_EDGE_TERMS };
-    double(*matrix)[N * N] = calloc(patch_count, sizeof *matrix);
-    double(*side)[N] = calloc(patch_count, sizeof *side);
-    if (!matrix || !side) {
-        free(matrix);
-        free(side);
-        return false;
-    }
-    for (size_t i = 0; i < field->count; i++) {
-        double d[1 + N];
-        if (!left_out(field, i, d))
+    enum { MOST = SITE_FIELD_EDGE_TERMS };
+    size_t terms = part->terms;
+    double(*matrix)[MOST * MOST] = calloc(patch_count, sizeof *matrix);
+    double(*side)[MOST] = calloc(patch_count, sizeof *side);
+    bool good = matrix && side;
+    for (size_t i = 0; good && i < field->count; i++) {
+        struct neighbours near_it;
+        double weights[SITE_FIELD_NEIGHBOURS], d[1 + MOST];
+        if (!weigh_others(field, i, &near_it, weights))
             continue;
         size_t patch = field->faces[i]->patch;
-        for (int t = 0; t < N; t++) {
-            side[patch][t] += d[1 + t] * d[0];
-            for (int u = 0; u < N; u++)
-                matrix[patch][t * N + u] += d[1 + t] * d[1 + u];
+        for (size_t number = 0; number < part->width; number++) {
+            part_left_out(part, number, i, &near_it, weights, d);
+            for (size_t t = 0; t < terms; t++) {
+                side[patch][t] += d[1 + t] * d[0];
+                for (size_t u = 0; u < terms; u++)
+                    matrix[patch][t * terms + u] += d[1 + t] * d[1 + u];
+            }
         }
     }
-    for (size_t p = 0; p < patch_count; p++) {
+    for (size_t p = 0; good && p < patch_count; p++) {
         /* equal terms share their coefficient */
         double ridge = 0.0;
-        for (int t = 0; t < N; t++)
-            ridge += 1e-6 * matrix[p][t * N + t];
-        for (int t = 0; t < N; t++)
-            matrix[p][t * N + t] += ridge;
-        bool solved = ridge > 0.0 && linear_solve(N, matrix[p], side[p]);
-        for (int t = 0; t < N; t++)
-            field->coefficients[p][t] = solved ? side[p][t] : 0.0;
+        for (size_t t = 0; t < terms; t++)
+            ridge += 1e-6 * matrix[p][t * terms + t];
+        for (size_t t = 0; t < terms; t++)
+            matrix[p][t * terms + t] += ridge;
+        bool solved = ridge > 0.0 && linear_solve(terms, matrix[p], side[p]);
+        for (size_t t = 0; t < terms; t++)
+            part->coefficients[p][t] = solved ? side[p][t] : 0.0;
     }
     free(matrix);
     free(side);
-    return true;
+    return good;
+}
+
+static bool make_room(struct site_field *field, size_t count, size_t patch_count, bool along)
+{
+    field->parts[0].width = 1;
+    field->parts[0].terms = 4;
+    field->parts[1].width = along ? 6 : 0;
+    field->parts[1].terms = SITE_FIELD_EDGE_TERMS;
+    field->faces = malloc((count + 1) * sizeof *field->faces);
+    field->points = malloc((count + 1) * sizeof *field->points);
+    field->normals = malloc((count + 1) * sizeof *field->normals);
+    bool good = field->faces && field->points && field->normals;
+    for (int p = 0; p < 2; p++) {
+        struct site_field_part *part = &field->parts[p];
+        size_t numbers = count * part->width + 1;
+        part->values = malloc(numbers * sizeof *part->values);
+        part->edge_terms = malloc(numbers * part->terms * sizeof *part->edge_terms);
+        part->coefficients = malloc((patch_count + 1) * sizeof *part->coefficients);
+        good = good && part->values && part->edge_terms && part->coefficients;
+    }
+    return good;
+}
+
+/* A place with its value, and its tensor without the part along the normal (NULL: none). */
+static void take_place(struct site_field *field, size_t i, const struct surface_face *face,
+                       double value, const double *tensor)
+{
+    const struct flexibility_place *place = &field->places[i];
+    struct edge_sums sums;
+    field->faces[i] = face;
+    memcpy(field->points[i], place->load.point, sizeof field->points[i]);
+    scale3(-1.0, place->load.inward, field->normals[i]);
+    field->parts[0].values[i] = value;
+    if (tensor) {
+        double *rest = field->parts[1].values + 6 * i;
+        memcpy(rest, tensor, 6 * sizeof *rest);
+        mesh_body_set_normal(field->normals[i], 0.0, rest);
+    }
+    sum_edges(field, face->patch, field->points[i], field->normals[i], &sums);
+    for (int p = 0; p < (tensor ? 2 : 1); p++) {
+        struct site_field_part *part = &field->parts[p];
+        edge_terms(field, part, &sums, field->normals[i],
+                   part->edge_terms + i * part->terms * part->width);
+    }
 }
 
 bool site_field_make(struct site_field *field, const struct surface_rule *rule,
                      const struct flexibility_edges *edges, size_t count,
-                     const struct flexibility_place *places, const double *values, double spacing)
+                     const struct flexibility_place *places, const double *values,
+                     const double (*tensors)[6], double spacing)
 {
-    *field = (struct site_field){
-        .edges = edges, .size = rule->surface->size, .spacing = spacing, .places = places};
+    *field = (struct site_field){.mesh = rule->mesh,
+                                 .edges = edges,
+                                 .size = rule->surface->size,
+                                 .spacing = spacing,
+                                 .places = places};
     size_t patch_count = rule->surface->patch_count;
-    field->faces = malloc((count + 1) * sizeof *field->faces);
-    field->points = malloc((count + 1) * sizeof *field->points);
-    field->normals = malloc((count + 1) * sizeof *field->normals);
-    field->edge_terms = malloc((count + 1) * sizeof *field->edge_terms);
-    field->coefficients = malloc((patch_count + 1) * sizeof *field->coefficients);
-    field->values = malloc((count + 1) * sizeof *field->values);
-    if (!field->faces || !field->points || !field->normals || !field->edge_terms ||
-        !field->coefficients || !field->values) {
-        site_field_free(field);
-        return false;
-    }
-    for (size_t i = 0; i < count; i++) {
-        field->faces[i] = &rule->surface->faces[places[i].face];
-        memcpy(field->points[i], places[i].load.point, sizeof field->points[i]);
-        scale3(-1.0, places[i].load.inward, field->normals[i]);
-        edge_terms(field, field->faces[i]->patch, field->points[i], field->edge_terms[i]);
-        field->values[i] = values[i];
-    }
+    bool good = make_room(field, count, patch_count, tensors != NULL);
     field->count = count;
-    if (fit_edges(field, patch_count))
-        return true;
-    site_field_free(field);
-    return false;
+    for (size_t i = 0; good && i < count; i++)
+        take_place(field, i, &rule->surface->faces[places[i].face], values[i],
+                   tensors ? tensors[i] : NULL);
+    for (int p = 0; good && p < (tensors ? 2 : 1); p++)
+        good = fit_edges(field, &field->parts[p], patch_count);
+    if (!good)
+        site_field_free(field);
+    return good;
 }
 
-double site_field_at(const struct site_field *field, const struct surface_face *face,
-                     const double x[3], const double outward[3])
+/* A part's numbers at x: the edge terms there, and the mean of what they leave at the neighbours.
+ */
+static void part_at(const struct site_field_part *part, size_t patch, const double *here,
+                    const struct neighbours *near_it, const double *weights, double *numbers)
+{
+    const double *coefficients = part->coefficients[patch];
+    for (size_t k = 0; k < part->width; k++) {
+        double sum = 0.0;
+        for (size_t t = 0; t < part->terms; t++)
+            sum += coefficients[t] * here[t * part->width + k];
+        for (size_t n = 0; n < near_it->count; n++) {
+            size_t place = near_it->places[n];
+            const double *terms = part->edge_terms + place * part->terms * part->width + k;
+            double rest = part->values[place * part->width + k];
+            for (size_t t = 0; t < part->terms; t++)
+                rest -= coefficients[t] * terms[t * part->width];
+            sum += weights[n] * rest;
+        }
+        numbers[k] = sum;
+    }
+}
+
+void site_field_at(const struct site_field *field, const struct surface_face *face,
+                   const double x[3], const double outward[3], double numbers[SITE_FIELD_NUMBERS])
 {
     struct neighbours near_it;
-    double weights[SITE_FIELD_NEIGHBOURS], here[SITE_FIELD_EDGE_TERMS], sum = 0.0;
+    struct edge_sums sums;
+    double weights[SITE_FIELD_NEIGHBOURS], here[6 * SITE_FIELD_EDGE_TERMS];
+    for (int k = 0; k < SITE_FIELD_NUMBERS; k++)
+        numbers[k] = NAN;
     find_neighbours(field, face, x, outward, SIZE_MAX, &near_it);
     if (!weigh_neighbours(field, x, &near_it, weights))
-        return NAN;
-    const double *coefficients = field->coefficients[face->patch];
-    edge_terms(field, face->patch, x, here);
-    for (int t = 0; t < SITE_FIELD_EDGE_TERMS; t++)
-        sum += coefficients[t] * here[t];
-    for (size_t n = 0; n < near_it.count; n++) {
-        size_t place = near_it.places[n];
-        double rest = field->values[place];
-        for (int t = 0; t < SITE_FIELD_EDGE_TERMS; t++)
-            rest -= coefficients[t] * field->edge_terms[place][t];
-        sum += weights[n] * rest;
+        return;
+    sum_edges(field, face->patch, x, outward, &sums);
+    for (int p = 0; p < 2; p++) {
+        const struct site_field_part *part = &field->parts[p];
+        edge_terms(field, part, &sums, outward, here);
+        part_at(part, face->patch, here, &near_it, weights, numbers + p);
     }
-    return sum;
 }
 
 double site_field_error(const struct site_field *field, size_t place)
 {
-    double d[1 + SITE_FIELD_EDGE_TERMS];
-    if (!left_out(field, place, d))
+    const struct site_field_part *part = &field->parts[0];
+    struct neighbours near_it;
+    double weights[SITE_FIELD_NEIGHBOURS], d[1 + SITE_FIELD_EDGE_TERMS];
+    if (!weigh_others(field, place, &near_it, weights))
         return NAN;
-    for (int t = 0; t < SITE_FIELD_EDGE_TERMS; t++)
-        d[0] -= field->coefficients[field->faces[place]->patch][t] * d[1 + t];
+    part_left_out(part, 0, place, &near_it, weights, d);
+    for (size_t t = 0; t < part->terms; t++)
+        d[0] -= part->coefficients[field->faces[place]->patch][t] * d[1 + t];
     return -d[0];
 }
 
 /* ---- values at nodes that many faces share, by least squares ---- */
 
-/* sum of shape[i] value[index[i]] = rest, so much weighed. */
+/* sum of shape[i] value[index[i]] = rest for each of the numbers, so much weighed. */
 struct edge_row {
     size_t count;
     size_t index[FACE_MOST_NODES];
     double shape[FACE_MOST_NODES];
-    double rest, weight;
+    double rest[SITE_FIELD_NUMBERS], weight;
 };
 
 /* Starts empty, all 0; owns its rows. */
@@ -360,9 +502,10 @@ static double fit_dot(size_t count, const double *a, const double *b)
     return sum;
 }
 
-/* The `count` values that fit best, from those there are, each of which weighs `own` itself: it
- * decides where the rows say nothing. By conjugate gradients; false: out of memory. */
-static bool edge_fit_solve(const struct edge_fit *fit, size_t count, double own, double *values)
+/* The `count` values of a number that fit best, from those there are, each of which weighs `own`
+ * itself: it decides where the rows say nothing. By conjugate gradients; false: out of memory. */
+static bool edge_fit_solve(const struct edge_fit *fit, size_t number, size_t count, double own,
+                           double *values)
 {
     double *memory = calloc(3 * count + 1, sizeof *memory);
     double *residual = memory, *along = memory + count, *product = memory + 2 * count;
@@ -373,7 +516,7 @@ static bool edge_fit_solve(const struct edge_fit *fit, size_t count, double own,
     for (size_t r = 0; r < fit->count; r++)
         for (size_t i = 0; i < fit->rows[r].count; i++)
             residual[fit->rows[r].index[i]] +=
-                fit->rows[r].weight * fit->rows[r].shape[i] * fit->rows[r].rest;
+                fit->rows[r].weight * fit->rows[r].shape[i] * fit->rows[r].rest[number];
     for (size_t i = 0; i < count; i++)
         along[i] = residual[i] -= product[i];
     double square = fit_dot(count, residual, residual), enough = SETTLED * square;
@@ -431,15 +574,16 @@ static size_t grid_points(size_t count, double at[FACE_GRID * FACE_GRID][2])
     return filled;
 }
 
-/* Faces of one patch and one material, which have one value at a node that they share. */
+/* Faces of one patch and one stiffness, which have one value at a node that they share. */
 struct group {
     const struct site_field *field;
     const struct surface_rule *rule;
     size_t patch, part;
-    double *known; /* [nodes], of those of the group's faces */
+    size_t numbers;                      /* that are wanted */
+    double (*known)[SITE_FIELD_NUMBERS]; /* [nodes], of those of the group's faces */
     size_t *index; /* [nodes]: which unknown a node is; NODE_KNOWN, NODE_ELSEWHERE */
     size_t unknowns;
-    double *values, *weights; /* [unknowns]: means of the values about them */
+    double *values, *weights; /* [numbers][unknowns], [unknowns]: means of the values about them */
     struct edge_fit fit;
 };
 static const size_t NODE_KNOWN = (size_t)-1, NODE_ELSEWHERE = (size_t)-2;
@@ -447,7 +591,7 @@ static const size_t NODE_KNOWN = (size_t)-1, NODE_ELSEWHERE = (size_t)-2;
 static bool is_in_group(const struct group *group, size_t face)
 {
     const struct surface_face *f = &group->rule->surface->faces[face];
-    return f->patch == group->patch && f->part == group->part;
+    return f->patch == group->patch && is_alike(group->rule->mesh, f->part, group->part);
 }
 
 /* The field at the face's nodes that no face before had; nodes near an edge become unknowns. */
@@ -463,8 +607,10 @@ static void take_nodes(struct group *group, size_t face)
         double edge = flexibility_edges_distance(group->field->edges, f->patch, point);
         bool unknown = edge < FITTED_TO * surface->size;
         group->index[node] = unknown ? group->unknowns++ : NODE_KNOWN;
-        group->known[node] =
-            unknown ? 0.0 : site_field_at(group->field, f, point, surface->points[face][n].normal);
+        memset(group->known[node], 0, sizeof group->known[node]);
+        if (!unknown)
+            site_field_at(group->field, f, point, surface->points[face][n].normal,
+                          group->known[node]);
     }
 }
 
@@ -475,10 +621,10 @@ static double edge_weight(const struct group *group, double edge)
     return part * part * part;
 }
 
-/* The field at a point of a face, and how much it weighs there: 0 where it is not known. Nearer to
- * an edge than any place it goes on as its edge terms do, and weighs little. */
+/* The field at a point of a face; returns how much it weighs there: 0 where it is not known. Nearer
+ * to an edge than any place it goes on as its edge terms do, and weighs little. */
 static double field_at_point(const struct group *group, size_t face, const double at[2],
-                             double *weight)
+                             double numbers[SITE_FIELD_NUMBERS])
 {
     const struct surface_rule *rule = group->rule;
     const struct surface_face *f = &rule->surface->faces[face];
@@ -487,30 +633,31 @@ static double field_at_point(const struct group *group, size_t face, const doubl
     facet_place(f->count, (const double(*)[3])nodes, at[0], at[1], x, outward);
     scale3(1.0 / norm3(outward), outward, outward);
     double edge = flexibility_edges_distance(group->field->edges, f->patch, x);
-    double value = site_field_at(group->field, f, x, outward);
-    *weight = isnan(value) ? 0.0 : edge_weight(group, edge);
-    return value;
+    site_field_at(group->field, f, x, outward, numbers);
+    return isnan(numbers[0]) ? 0.0 : edge_weight(group, edge);
 }
 
-/* Adds a row: the shape functions' sum of the nodes' values at a point of a face equals the value.
+/* Adds a row: the shape functions' sum of the nodes' numbers at a point of a face equals these.
  * False: out of memory. */
-static bool add_row(struct group *group, size_t face, const double at[2], double value,
-                    double weight)
+static bool add_row(struct group *group, size_t face, const double at[2],
+                    const double numbers[SITE_FIELD_NUMBERS], double weight)
 {
     const struct surface_face *f = &group->rule->surface->faces[face];
-    struct edge_row row = {.rest = value, .weight = weight};
+    struct edge_row row = {.weight = weight};
+    memcpy(row.rest, numbers, sizeof row.rest);
     double shape[FACE_MOST_NODES];
     facet_shape(f->count, at[0], at[1], shape, NULL, NULL);
     /* known nodes' parts go to the other side; unknowns get a mean */
     for (size_t n = 0; n < f->count; n++) {
         size_t node = f->nodes[n], index = group->index[node];
-        if (index == NODE_KNOWN) {
-            row.rest -= shape[n] * group->known[node];
+        for (size_t k = 0; index == NODE_KNOWN && k < group->numbers; k++)
+            row.rest[k] -= shape[n] * group->known[node][k];
+        if (index == NODE_KNOWN)
             continue;
-        }
         row.index[row.count] = index;
         row.shape[row.count++] = shape[n];
-        group->values[index] += weight * value;
+        for (size_t k = 0; k < group->numbers; k++)
+            group->values[k * group->unknowns + index] += weight * numbers[k];
         group->weights[index] += weight;
     }
     return edge_fit_add(&group->fit, &row);
@@ -523,7 +670,7 @@ static bool is_fitted(const struct group *group, size_t face)
     bool any = false, whole = true;
     for (size_t n = 0; n < f->count; n++) {
         any = any || group->index[f->nodes[n]] != NODE_KNOWN;
-        whole = whole && !isnan(group->known[f->nodes[n]]);
+        whole = whole && !isnan(group->known[f->nodes[n]][0]);
     }
     return any && whole;
 }
@@ -536,10 +683,22 @@ static bool add_rows(struct group *group, size_t face)
     size_t points =
         is_fitted(group, face) ? grid_points(group->rule->surface->faces[face].count, at) : 0;
     for (size_t p = 0; p < points && good; p++) {
-        double weight, value = field_at_point(group, face, at[p], &weight);
-        good = weight == 0.0 || add_row(group, face, at[p], value, weight);
+        double numbers[SITE_FIELD_NUMBERS], weight = field_at_point(group, face, at[p], numbers);
+        good = weight == 0.0 || add_row(group, face, at[p], numbers, weight);
     }
     return good;
+}
+
+/* What was solved for at a place. */
+static void site_numbers(const struct site_field *field, size_t place,
+                         double numbers[SITE_FIELD_NUMBERS])
+{
+    const struct site_field_part *rest = &field->parts[1];
+    for (size_t k = 0; k < SITE_FIELD_NUMBERS; k++)
+        numbers[k] = NAN;
+    numbers[0] = field->parts[0].values[place];
+    for (size_t k = 0; k < rest->width; k++)
+        numbers[1 + k] = rest->values[place * rest->width + k];
 }
 
 /* The solved values at their own places: also nearer to the edge than the field is known, at
@@ -551,13 +710,15 @@ static bool add_sites(struct group *group)
     for (size_t i = 0; i < field->count && good; i++) {
         const struct flexibility_place *place = &field->places[i];
         const double at[2] = {place->u, place->v};
-        if (isnan(field->values[i]) || !is_in_group(group, place->face) ||
+        double numbers[SITE_FIELD_NUMBERS];
+        if (!is_known(field, i) || !is_in_group(group, place->face) ||
             !is_fitted(group, place->face))
             continue;
+        site_numbers(field, i, numbers);
         double weight = place->edge < flexibility_edges_known(field->edges, place->face)
                             ? 1.0
                             : edge_weight(group, place->edge);
-        good = add_row(group, place->face, at, field->values[i], SITE_WEIGHT * weight);
+        good = add_row(group, place->face, at, numbers, SITE_WEIGHT * weight);
     }
     return good;
 }
@@ -572,13 +733,16 @@ static bool fit_group(struct group *group)
         good = !is_in_group(group, f) || add_rows(group, f);
     good = good && add_sites(group);
     /* from the mean of the values about each */
-    for (size_t i = 0; i < group->unknowns; i++)
-        group->values[i] = group->weights[i] > 0.0 ? group->values[i] / group->weights[i] : 0.0;
-    good = good && edge_fit_solve(&group->fit, group->unknowns, MEAN_WEIGHT, group->values);
-    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++) {
-        size_t index = group->index[node];
-        if (index < group->unknowns)
-            group->known[node] = group->weights[index] > 0.0 ? group->values[index] : NAN;
+    for (size_t k = 0; good && k < group->numbers; k++) {
+        double *values = group->values + k * group->unknowns;
+        for (size_t i = 0; i < group->unknowns; i++)
+            values[i] = group->weights[i] > 0.0 ? values[i] / group->weights[i] : 0.0;
+        good = edge_fit_solve(&group->fit, k, group->unknowns, MEAN_WEIGHT, values);
+        for (size_t node = 0; good && node < group->rule->mesh->node_count; node++) {
+            size_t index = group->index[node];
+            if (index < group->unknowns)
+                group->known[node][k] = group->weights[index] > 0.0 ? values[index] : NAN;
+        }
     }
     return good;
 }
@@ -588,10 +752,10 @@ static bool fit_unknowns(struct group *group)
 {
     if (group->unknowns == 0)
         return true;
-    group->values = calloc(2 * group->unknowns, sizeof *group->values);
+    group->values = calloc((group->numbers + 1) * group->unknowns, sizeof *group->values);
     if (!group->values)
         return false;
-    group->weights = group->values + group->unknowns;
+    group->weights = group->values + group->numbers * group->unknowns;
     bool good = fit_group(group);
     free(group->values);
     return good;
@@ -603,8 +767,13 @@ static void fill_body_face(const struct group *group, size_t face, struct mesh_b
     const struct surface_face *f = &group->rule->surface->faces[face];
     const struct material *material = &group->rule->mesh->part[f->part].material;
     for (size_t n = 0; n < f->count; n++) {
-        double curvature = site_field_curvature(&group->rule->surface->points[face][n]);
-        result->flexibility[n] = group->known[f->nodes[n]];
+        const struct surface_point *point = &group->rule->surface->points[face][n];
+        double curvature = site_field_curvature(point), *known = group->known[f->nodes[n]];
+        double *tensor = known + 1;
+        result->flexibility[n] = known[0];
+        mesh_body_set_normal(point->normal, known[0], tensor);
+        for (int k = 0; k < 6; k++)
+            result->tensor[n][k] = (float)tensor[k];
         result->flexibility_slope[n] =
             flexibility_slope(material->young, material->poisson, curvature);
     }
@@ -641,12 +810,14 @@ enum percuss_status site_field_spread(const struct site_field *field,
     size_t nodes = rule->mesh->node_count;
     struct group group = {.field = field,
                           .rule = rule,
+                          .numbers = 1 + field->parts[1].width,
                           .known = malloc(nodes * sizeof *group.known),
                           .index = malloc(nodes * sizeof *group.index)};
     bool good = group.known && group.index;
     for (group.patch = 0; good && group.patch < rule->surface->patch_count; group.patch++)
         for (group.part = 0; good && group.part < rule->mesh->part_count; group.part++)
-            good = spread_group(&group, body);
+            good = first_alike(rule->mesh, group.part) != group.part || spread_group(&group, body);
+    body->all_ways = field->parts[1].width > 0;
     free(group.known);
     free(group.index);
     edge_fit_free(&group.fit);
@@ -674,10 +845,37 @@ static double interpolated(size_t count, const struct mesh_body_face *face, doub
     return sum;
 }
 
+/* The largest difference of a face's interpolated tensor from that solved for at a place, but for
+ * the part along the normal. */
+static double tensor_off(const struct site_field *field, size_t place,
+                         const struct mesh_body_face *face)
+{
+    const struct flexibility_place *at = &field->places[place];
+    double shape[FACE_MOST_NODES], tensor[6], largest = 0.0;
+    facet_shape((int)field->faces[place]->count, at->u, at->v, shape, NULL, NULL);
+    for (int k = 0; k < 6; k++) {
+        tensor[k] = 0.0;
+        for (size_t n = 0; n < field->faces[place]->count; n++)
+            tensor[k] += shape[n] * (double)face->tensor[n][k];
+    }
+    mesh_body_set_normal(field->normals[place], 0.0, tensor);
+    for (int k = 0; k < 6; k++)
+        largest = fmax(largest, fabs(tensor[k] - field->parts[1].values[6 * place + (size_t)k]));
+    return largest;
+}
+
+static void withdraw_tensor(struct mesh_body_face *face)
+{
+    for (int n = 0; n < FACE_MOST_NODES; n++)
+        for (int k = 0; k < 6; k++)
+            face->tensor[n][k] = NAN;
+}
+
 static void withdraw_face(struct mesh_body_face *face)
 {
     for (int n = 0; n < FACE_MOST_NODES; n++)
         face->flexibility[n] = NAN;
+    withdraw_tensor(face);
 }
 
 /* Compares faces with the values solved for on them. */
@@ -686,11 +884,14 @@ static void check_face_places(const struct site_field *field, struct mesh_body *
     for (size_t i = 0; i < field->count; i++) {
         const struct flexibility_place *place = &field->places[i];
         struct mesh_body_face *face = &body->faces[place->face];
-        double length = fmin(place->edge, field->size);
-        double off =
-            interpolated(field->faces[i]->count, face, place->u, place->v) - field->values[i];
-        if (fabs(off) * place->load.young * length > MOST_OFF)
+        double most = MOST_OFF / (place->load.young * fmin(place->edge, field->size));
+        double off = interpolated(field->faces[i]->count, face, place->u, place->v) -
+                     field->parts[0].values[i];
+        if (fabs(off) > most)
             withdraw_face(face);
+        else if (field->parts[1].width > 0 && is_known(field, i) &&
+                 !(tensor_off(field, i, face) <= most))
+            withdraw_tensor(face);
     }
 }
 
@@ -743,9 +944,14 @@ size_t site_field_check(const struct site_field *field, const struct surface_rul
         struct mesh_body_face *face = &body->faces[f];
         if (is_face_thin(field, rule, f) || !is_face_possible(field, rule, f, face))
             withdraw_face(face);
-        bool known = true;
-        for (size_t n = 0; n < rule->surface->faces[f].count; n++)
+        bool known = true, possible = true;
+        for (size_t n = 0; n < rule->surface->faces[f].count; n++) {
             known = known && !isnan(face->flexibility[n]);
+            possible =
+                possible && (!body->all_ways || mesh_body_tensor_possible(body, face, (int)n));
+        }
+        if (!possible)
+            withdraw_tensor(face);
         unknown += !known;
     }
     return unknown;

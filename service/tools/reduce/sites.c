@@ -206,8 +206,9 @@ struct sites {
     struct flexibility *flexibility;
     struct flexibility_place *places;
     size_t count;
-    double *values; /* [count], m/N at the cut; NAN: not known */
-    float *between; /* [count][count], row: the moved site; NULL: not wanted */
+    double *values;       /* [count], m/N at the cut; NAN: not known */
+    double (*tensors)[6]; /* [count], the same between all directions */
+    float *between;       /* [count][count], row: the moved site; NULL: not wanted */
     double cut;
 };
 
@@ -216,18 +217,21 @@ static void sites_free(struct sites *sites)
     flexibility_free(sites->flexibility);
     free(sites->places);
     free(sites->values);
+    free(sites->tensors);
     free(sites->between);
 }
 
 /* the surface's own, by its fit, at a place */
-static double curvature_at(const struct surface *surface, const struct flexibility_place *place)
+static void curvature_at(const struct surface *surface, const struct flexibility_place *place,
+                         double curvature[9])
 {
     const struct surface_face *face = &surface->faces[place->face];
-    double shape[FACE_MOST_NODES], sum = 0.0;
+    double shape[FACE_MOST_NODES];
     facet_shape(face->count, place->u, place->v, shape, NULL, NULL);
+    memset(curvature, 0, 9 * sizeof *curvature);
     for (size_t n = 0; n < face->count; n++)
-        sum += shape[n] * site_field_curvature(&surface->points[place->face][n]);
-    return sum;
+        for (int k = 0; k < 9; k++)
+            curvature[k] += shape[n] * surface->points[place->face][n].curvature[k];
 }
 
 /* sites that were asked for, and others between */
@@ -249,25 +253,32 @@ static enum percuss_status choose_sites(struct sites *sites, double *spacing, st
                                                          : SPACING * body->surface->size,
                                      task->most, task->exact_count, wanted};
         sites->places = site_choice_make(&choice, rule, edges, &sites->count, spacing);
+        for (size_t i = 0; i < sites->count; i++)
+            sites->places[i].loads = FLEXIBILITY_LOADS;
         free(wanted);
     }
     /* room for the answers */
     sites->values = malloc((sites->count + 1) * sizeof *sites->values);
+    sites->tensors = malloc((sites->count + 1) * sizeof *sites->tensors);
     if (task->between)
         sites->between = malloc((sites->count * sites->count + 1) * sizeof *sites->between);
-    if (!sites->places || !sites->values || (task->between && !sites->between))
+    if (!sites->places || !sites->values || !sites->tensors || (task->between && !sites->between))
         return pace_fault(fault, PERCUSS_INTERNAL);
     return PERCUSS_OK;
 }
 
 /* flexibility for a contact of the radius `cut` from that at the face's own radius */
 static double at_cut(const struct sites *sites, const struct flexibility_place *place,
-                     const struct flexibility_answer *answer)
+                     struct flexibility_answer *answer)
 {
-    double young = place->load.young, poisson = place->load.poisson;
-    double curvature = curvature_at(sites->task->body.surface, place);
-    return answer->value + flexibility_of_contact(young, poisson, curvature) +
-           flexibility_slope(young, poisson, curvature) * log(answer->radius / sites->cut);
+    double young = place->load.young, poisson = place->load.poisson, curvature[9];
+    double narrower = log(answer->radius / sites->cut);
+    curvature_at(sites->task->body.surface, place, curvature);
+    double mean = 0.5 * (curvature[0] + curvature[4] + curvature[8]);
+    cerruti3_add_slope(young, poisson, place->load.inward, curvature, narrower, answer->tensor);
+    cerruti3_add_contact(young, poisson, place->load.inward, curvature, answer->tensor);
+    return answer->value + flexibility_of_contact(young, poisson, mean) +
+           flexibility_slope(young, poisson, mean) * narrower;
 }
 
 /* of the wall: elements with which flexibility is good to 2 % (flexibility_place_thin) */
@@ -290,8 +301,12 @@ static void look_at_walls(const struct sites *sites, struct sites_report *report
 struct blocks {
     struct sites *sites;
     double *values, *imbalances; /* [count] */
+    double (*tensors)[6];        /* [count] */
     float *between; /* [count][count], a row for each that is solved; NULL: not wanted */
 };
+
+/* Places solved for together. */
+enum { BLOCK = FLEXIBILITY_BLOCK / FLEXIBILITY_LOADS };
 
 /* One block: values at the cut, unknown where the elements are too coarse, and responses at the
  * other sites. */
@@ -299,18 +314,20 @@ static enum percuss_status solve_block(void *context, size_t block, struct fault
 {
     const struct blocks *blocks = context;
     const struct sites *sites = blocks->sites;
-    struct flexibility_answer answers[FLEXIBILITY_BLOCK];
+    struct flexibility_answer answers[BLOCK];
     double least = LEAST_REACH * sites->task->body.surface->size;
-    size_t first = block * FLEXIBILITY_BLOCK, left = sites->count - first;
-    size_t count = left < FLEXIBILITY_BLOCK ? left : FLEXIBILITY_BLOCK;
+    size_t first = block * BLOCK, left = sites->count - first;
+    size_t count = left < BLOCK ? left : BLOCK;
     const struct flexibility_place *places = sites->places + first;
     enum percuss_status status =
         flexibility_solve(sites->flexibility, count, places, answers, fault);
     for (size_t c = 0; c < count && status == PERCUSS_OK; c++) {
         bool massive = flexibility_place_massive(&places[c], sites->task->body.mesh);
         double value = massive ? NAN : at_cut(sites, &places[c], &answers[c]);
-        bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
+        bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]) &&
+                     !isnan(answers[c].tensor[0]);
         blocks->values[first + c] = known ? value : NAN;
+        memcpy(blocks->tensors[first + c], answers[c].tensor, sizeof answers[c].tensor);
         blocks->imbalances[first + c] = answers[c].imbalance;
         for (size_t i = 0; blocks->between && i < sites->count; i++)
             blocks->between[(first + c) * sites->count + i] =
@@ -328,6 +345,7 @@ static void take_blocks(const struct blocks *blocks, struct sites_report *report
     size_t count = sites->count;
     for (size_t c = 0; c < count; c++) {
         sites->values[c] = blocks->values[c];
+        memcpy(sites->tensors[c], blocks->tensors[c], sizeof sites->tensors[c]);
         report->imbalance = fmax(report->imbalance, blocks->imbalances[c]);
         for (size_t i = 0; blocks->between && i < count; i++)
             sites->between[i * count + c] = blocks->between[c * count + i];
@@ -338,14 +356,17 @@ static void take_blocks(const struct blocks *blocks, struct sites_report *report
 static enum percuss_status solve_sites(struct sites *sites, struct sites_report *report,
                                        struct fault *fault)
 {
-    size_t count = sites->count, values = 2 * count * sizeof(double);
+    size_t count = sites->count, values = 8 * count * sizeof(double);
     size_t bytes = values + (sites->between ? count * count * sizeof *sites->between : 0) + 1;
     double *memory = forked_memory(bytes);
     if (!memory)
         return pace_fault(fault, PERCUSS_INTERNAL);
-    struct blocks blocks = {sites, memory, memory + count,
-                            sites->between ? (float *)(memory + 2 * count) : NULL};
-    const struct forked_work work = {.parts = (count + FLEXIBILITY_BLOCK - 1) / FLEXIBILITY_BLOCK,
+    struct blocks blocks = {.sites = sites,
+                            .values = memory,
+                            .imbalances = memory + count,
+                            .tensors = (double(*)[6])(memory + 2 * count),
+                            .between = sites->between ? (float *)(memory + 8 * count) : NULL};
+    const struct forked_work work = {.parts = (count + BLOCK - 1) / BLOCK,
                                      .processes = sites->task->processes,
                                      .part = solve_block,
                                      .context = &blocks,
@@ -376,12 +397,30 @@ static double make_symmetric(struct sites *sites, double near_it)
     return largest;
 }
 
+/* A removed mode's displacement at a place, over its frequency: along the inward normal, and in the
+ * mesh's frame. */
+static double mode_at(const struct sites *sites, size_t mode, size_t place, double moved[3])
+{
+    const struct flexibility_place *at = &sites->places[place];
+    double omega = sites->task->body.omega[mode], parts[FLEXIBILITY_LOADS];
+    memset(moved, 0, 3 * sizeof *moved);
+    for (int load = 0; load < FLEXIBILITY_LOADS; load++) {
+        parts[load] = flexibility_mode(sites->flexibility, mode, at, load) / omega;
+        add_scaled3(parts[load], flexibility_place_direction(at, load), moved);
+    }
+    return parts[0];
+}
+
 /* Gives the mode back to values and responses: it is no longer removed. */
 static void give_back(struct sites *sites, size_t mode, double *shape)
 {
-    double omega = sites->task->body.omega[mode];
-    for (size_t i = 0; i < sites->count; i++)
-        shape[i] = flexibility_mode(sites->flexibility, mode, &sites->places[i], 0) / omega;
+    static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
+    for (size_t i = 0; i < sites->count; i++) {
+        double moved[3];
+        shape[i] = mode_at(sites, mode, i, moved);
+        for (int k = 0; sites->tensors && k < 6; k++)
+            sites->tensors[i][k] += moved[ROW[k]] * moved[COLUMN[k]];
+    }
     for (size_t i = 0; i < sites->count; i++) {
         sites->values[i] += shape[i] * shape[i];
         for (size_t j = 0; sites->between && j < sites->count; j++)
@@ -395,7 +434,7 @@ static enum percuss_status make_field(const struct sites *sites, struct site_fie
 {
     if (!site_field_make(field, flexibility_rule(sites->flexibility),
                          flexibility_edges(sites->flexibility), sites->count, sites->places,
-                         sites->values, report->spacing))
+                         sites->values, (const double(*)[6])sites->tensors, report->spacing))
         return pace_fault(fault, PERCUSS_INTERNAL);
     /* each site from its neighbours alone */
     double sum = 0.0, inside = 0.0;
@@ -431,12 +470,14 @@ static enum percuss_status smoothen(struct sites *sites, struct site_field *fiel
 
     /* first the best number of modes, by values alone; then the responses for that number */
     float *between = sites->between;
+    double(*tensors)[6] = sites->tensors;
     double *first = malloc((count + 1) * sizeof *first);
     if (!first && status == PERCUSS_OK)
         status = pace_fault(fault, PERCUSS_INTERNAL);
     if (status == PERCUSS_OK)
         memcpy(first, sites->values, count * sizeof *first);
     sites->between = NULL;
+    sites->tensors = NULL;
     for (size_t removed = most; status == PERCUSS_OK;) {
         struct sites_report now = *report;
         now.removed = removed;
@@ -450,6 +491,7 @@ static enum percuss_status smoothen(struct sites *sites, struct site_field *fiel
             give_back(sites, --removed, shape);
     }
     sites->between = between;
+    sites->tensors = tensors;
     if (status == PERCUSS_OK) {
         memcpy(sites->values, first, count * sizeof *first);
         for (size_t mode = most; mode > best.removed; mode--)

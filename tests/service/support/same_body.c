@@ -24,6 +24,8 @@ static void compare_face(const struct mesh_body_face *one, const struct mesh_bod
             continue;
         *largest = fmax(*largest, fabs(value));
         *apart = fmax(*apart, change);
+        for (int k = 0; k < 6; k++)
+            *apart = fmax(*apart, fabs((double)one->tensor[i][k] - (double)other->tensor[i][k]));
     }
 }
 

@@ -63,6 +63,7 @@ static void expect_same(const struct mesh_body *a, const struct mesh_body *b)
     assert_int_equal(a->face_count, b->face_count);
     assert_int_equal(a->material_count, b->material_count);
     assert_int_equal(a->site_count, b->site_count);
+    assert_int_equal(a->all_ways, b->all_ways);
     assert_memory_equal(a->omega, b->omega, a->mode_count * sizeof *a->omega);
     assert_memory_equal(a->points, b->points, a->node_count * sizeof *a->points);
     assert_memory_equal(a->shapes, b->shapes, shapes * sizeof *a->shapes);
@@ -73,9 +74,26 @@ static void expect_same(const struct mesh_body *a, const struct mesh_body *b)
         assert_memory_equal(x->normal, y->normal, sizeof x->normal);
         assert_memory_equal(x->curvature, y->curvature, sizeof x->curvature);
         assert_memory_equal(x->flexibility, y->flexibility, sizeof x->flexibility);
+        if (a->all_ways)
+            assert_memory_equal(x->tensor, y->tensor, sizeof x->tensor);
     }
     assert_string_equal(a->materials[0].name, b->materials[0].name);
     assert_true(a->materials[0].yield == b->materials[0].yield);
+}
+
+/* Tensors that go with the flexibilities. */
+static void add_tensors(struct mesh_body *body)
+{
+    body->all_ways = true;
+    for (size_t f = 0; f < body->face_count; f++)
+        for (int i = 0; i < body->faces[f].count; i++) {
+            struct mesh_body_face *face = &body->faces[f];
+            const double n[3] = {face->normal[i][0], face->normal[i][1], face->normal[i][2]};
+            double tensor[6] = {1e-9, -2e-10, 3e-10, 1e-10 * (double)i, 2e-10, -1e-10};
+            mesh_body_set_normal(n, face->flexibility[i], tensor);
+            for (int k = 0; k < 6; k++)
+                face->tensor[i][k] = (float)tensor[k];
+        }
 }
 
 static void comes_back_as_written(void **state)
@@ -100,10 +118,13 @@ static void comes_back_as_written(void **state)
     assert_memory_equal(body->site_point, other->site_point, 2 * sizeof *body->site_point);
     assert_memory_equal(body->between, other->between, 4 * sizeof *body->between);
     mesh_body_free(other);
-    /* and without sites, in its place */
+    /* and without sites, in its place, but with tensors, one of which is not known either */
     body->site_count = 0;
+    add_tensors(body);
+    assert_true(isnan(body->faces[3].tensor[2][0]));
     assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
     other = read_back(path);
+    expect_same(body, other);
     assert_true(other->site_count == 0 && !other->between);
     mesh_body_free(other);
     mesh_body_free(body);
@@ -163,6 +184,22 @@ static void refuses_wrong_numbers(void **state)
     write_wrong(path, body);
     expect_refused(path, "inertia: must be symmetric");
     body->inertia[1] = 0.0;
+    add_tensors(body);
+    body->faces[4].tensor[6][0] += 1e-9f;
+    body->faces[4].tensor[6][1] += 1e-9f;
+    body->faces[4].tensor[6][2] += 1e-9f;
+    write_wrong(path, body);
+    expect_refused(path, "faces/tensor: at node 6 of face 4: along the normal it must be");
+    add_tensors(body);
+    body->faces[4].tensor[6][3] = INFINITY;
+    write_wrong(path, body);
+    expect_refused(path, "faces/tensor: number ");
+    /* stiffer in itself than a contact is compliant */
+    add_tensors(body);
+    body->cut = 1.0;
+    write_wrong(path, body);
+    expect_refused(path, "it must be positive definite");
+    body->all_ways = false;
     body->materials[0].poisson = 0.7;
     write_wrong(path, body);
     expect_refused(path, "materials[0].poisson");

@@ -213,7 +213,8 @@ static void bent_surfaces_leave_a_logarithm(void **state)
     for (size_t c = 0; c < COUNT(BENT); c++) {
         /* k11, k22, k12; the surface falls by half of k x x */
         const double k[2][2] = {{BENT[c][0], BENT[c][2]}, {BENT[c][2], BENT[c][1]}};
-        double sum[2][2] = {{0.0}}, tensor[6] = {0.0}, curvature[9] = {0.0}, normal[3];
+        double sum[2][2] = {{0.0}}, even[2][2] = {{0.0}}, tensor[6] = {0.0}, curvature[9] = {0.0};
+        double contact[6] = {0.0}, normal[3];
         scale3(-1.0, LOAD.inward, normal);
         for (int n = 0; n < STEPS; n++) {
             double angle = 2.0 * M_PI * (n + 0.5) / STEPS, area = 2.0 * M_PI * RADIUS / STEPS;
@@ -233,17 +234,28 @@ static void bent_surfaces_leave_a_logarithm(void **state)
                     boussinesq3_traction(s, outward, traction);
                     cerruti3_field(&LOAD, t[j], x, u, NULL);
                     sum[i][j] -= RADIUS * area * dot3(traction, u);
+                    /* with the displacement's mean over the angle alone */
+                    even[i][j] -= area * dot3(traction, t[j]) * (1.0 + LOAD.poisson) *
+                                  (1.0 - 0.5 * LOAD.poisson) / (M_PI * LOAD.young);
                 }
         }
         for (int i = 0; i < 9; i++)
             for (int a = 0; a < 4; a++)
                 curvature[i] += k[a / 2][a % 2] * t[a / 2][i / 3] * t[a % 2][i % 3];
         cerruti3_add_slope(LOAD.young, LOAD.poisson, normal, curvature, 1.0, tensor);
+        cerruti3_add_contact(LOAD.young, LOAD.poisson, normal, curvature, contact);
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++) {
                 double image[3];
                 boussinesq3_traction(tensor, t[j], image);
                 near_scaled(dot3(t[i], image), sum[i][j], sum[0][0], 2e-3);
+                /* a contact's: 2 ln 2 of that mean, 2 ln 2 - 2 of the rest, the mean of pairs */
+                double rest = sum[i][j] - even[i][j];
+                boussinesq3_traction(contact, t[j], image);
+                near_scaled(dot3(t[i], image),
+                            2.0 * M_LN2 * even[i][j] + (2.0 * M_LN2 - 2.0) * rest +
+                                (1.625 - 2.0 * M_LN2) * sum[i][j],
+                            sum[0][0], 3e-3);
             }
     }
 }

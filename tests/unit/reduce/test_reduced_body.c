@@ -7,6 +7,7 @@
 #include "model/mesh_surface.h"
 #include "model/modal_basis.h"
 #include "model/ritz.h"
+#include "model/vector.h"
 #include "reduce/reduced_body.h"
 #include "unit/reduce/solve_mesh.h"
 
@@ -90,9 +91,9 @@ static void test_block(void **state)
     solid_mesh_free(&mesh);
 }
 
-/* Along the surface its modes and the normal's flexibility tell the compliance within the
- * uncertainty that the load has, against the block of Ritz's method; between directions the modes'
- * sum alone does, to 0.1 over E and the thickness. */
+/* Along the surface, where the file says nothing of that, its modes and the normal's flexibility
+ * tell the compliance within the uncertainty that the load has, against the block of Ritz's method;
+ * between directions the modes' sum alone does, to 0.1 over E and the thickness. */
 static void compare_along(const struct body *body, const struct ritz *ritz, const double size[3],
                           const double spot[2])
 {
@@ -127,6 +128,60 @@ static void compare_along(const struct body *body, const struct ritz *ritz, cons
     measured("x, -z", modal_compliance(body, 0, &loads[0], &loads[2]), -unit * tensor[5], left);
 }
 
+/* With tensors in its faces it has them, whatever modes they go without, and scales them as bodies
+ * do: 1/(E L). */
+static void compare_tensors(struct mesh_body *mesh, const struct body *body)
+{
+    static const double tensor[6] = {3e-9, 5e-9, 2e-9, 1e-9, -2e-9, 0.5e-9};
+    static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
+    struct site site = {.point = {0.02, 0.008, 0.01}, .outward = {0.0, 0.0, 1.0}};
+    struct mesh_place place;
+    struct family_load loads[3];
+    struct body twice = *body;
+    twice.scale = 2.0;
+    twice.material.young *= 3.0;
+    assert_int_equal(mesh_surface_find(mesh, site.point, 0.0, &place, 1), 1);
+    struct mesh_body_face *face = &mesh->faces[place.face];
+    mesh->all_ways = true;
+    for (int i = 0; i < face->count; i++) {
+        face->flexibility[i] = tensor[2];
+        for (int k = 0; k < 6; k++)
+            face->tensor[i][k] = (float)tensor[k];
+    }
+    for (int variant = 0; variant < 2; variant++) {
+        const struct body *of = variant ? &twice : body;
+        double unit = variant ? 1.0 / 6.0 : 1.0, at[3];
+        struct face faces[BODY_MOST_FACES];
+        scale3(of->scale, site.point, at);
+        assert_true(of->kind->faces(of, at, faces) > 0);
+        struct site there = site;
+        memcpy(there.point, at, sizeof at);
+        there.spot = faces[0].spot;
+        mesh->removed = 3 * (size_t)variant;
+        for (int d = 0; d < 3; d++) {
+            const double direction[3] = {d == 0, d == 1, d == 2 ? -1.0 : 0.0};
+            struct site_load load = d == 2 ? site_load_make(of, &there, direction)
+                                           : site_load_tangential(of, &there, direction);
+            loads[d] = load.family[0];
+            assert_true(loads[d].mesh.all_ways);
+        }
+        assert_true(loads[0].mesh.unknown == 0.0); /* where it is not bent */
+        struct modal_family *modes = modal_family_create(of, 0, 3);
+        assert_non_null(modes);
+        for (int k = 0; k < 6; k++) {
+            int i = ROW[k], j = COLUMN[k];
+            double sign = (i == 2) == (j == 2) ? 1.0 : -1.0, expected = sign * unit * tensor[k];
+            for (size_t m = 0; m < mesh->removed; m++)
+                expected += modal_participation(of, modes, m, &loads[i]) *
+                            modal_participation(of, modes, m, &loads[j]) /
+                            (modes->omega[m] * modes->omega[m]);
+            /* in float */
+            near(modal_compliance(of, 0, &loads[i], &loads[j]), expected, 1e-6 * tensor[1]);
+        }
+        modal_family_free(modes);
+    }
+}
+
 static void test_block_along(void **state)
 {
     (void)state;
@@ -154,6 +209,7 @@ static void test_block_along(void **state)
     assert_non_null(ritz);
     for (size_t p = 0; p < COUNT(spots); p++)
         compare_along(&body, ritz, size, spots[p]);
+    compare_tensors(made, &body);
     ritz_free(ritz);
     mesh_body_free(made);
     surface_free(&surface);

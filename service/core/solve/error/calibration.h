@@ -134,6 +134,9 @@ static const double PATCH = 0.3;
  * on a half-space (-0.59 of it); of a beam's side; of the same without shear; of a body that is
  * rigid but for its contact (-0.3 of a sphere). */
 static const double UNKNOWN_MATCHED = 0.03;
+/* Of a mesh along its surface, as its file says it: between sites twice as far off as along the
+ * normal (tests/unit/reduce/test_sites.c), on narrow faces of few elements three times. */
+static const double UNKNOWN_ALONG = 0.1;
 static const double UNKNOWN_HALF_SPACE = 0.8;
 static const double UNKNOWN_SIDE = 0.6;
 static const double UNKNOWN_WITHOUT_SHEAR = 1.0;

@@ -224,7 +224,8 @@ static double waves_along(const struct problem *problem, const struct contact_fr
 }
 
 /* What a body yields along its surface less than a half-space, m/N: of solids the modes know it, of
- * meshes but for a part; of a ball or a bar it is about as much as across. */
+ * meshes the file does, but for interpolation and edges, as across; of a ball or a bar it is about
+ * as much as across. */
 static double unknown_along(const struct problem *problem, const struct contact_friction *friction,
                             int tangent, int which)
 {
@@ -232,6 +233,9 @@ static double unknown_along(const struct problem *problem, const struct contact_
     const struct body *body = problem->bodies[side->body];
     double size = scale_of(body);
     double mesh = friction->sides[tangent][which].load.family[0].mesh.unknown;
+    if (body->mesh && body_is_flexible(body))
+        return mesh + UNKNOWN_ALONG / (body->material.young * size) +
+               near_edge(problem, friction->contact, which);
     if (body_is_solid(body) || !isfinite(size))
         return mesh;
     double share = !is_bar(body)                       ? UNKNOWN_COMPACT
