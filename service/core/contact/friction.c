@@ -314,213 +314,319 @@ struct walk {
     double stuck, turning[2]; /* stiffnesses of cells that stick, and of forces that turn */
 };
 
-/* A cell's way: its force and share at the beginning, what it has at the end. */
-struct cell_way {
-    double x, y, from;
-    double share;
-    double stiffness;     /* mean over the way */
-    double before, after; /* compliances of the part that was closed all the way, and at the end */
+/* Part of a loop over cells, which is vectorised as a whole. */
+#define EACH_CELL __attribute__((always_inline)) static inline
+
+/* Cells at a time, a multiple of LANES: their ways, and those that slip. */
+enum { STRIP = 64, LANES = 4 };
+
+struct strip {
+    /* of each cell: share at the end, mean stiffness over the way, compliances of the part that was
+     * closed all the way and at the end; the square of its elastic force over its limit, > 0: it
+     * slips */
+    double share[STRIP], stiffness[STRIP], before[STRIP], after[STRIP], excess[STRIP];
+    /* of the cells from `slips` up to `sticks`, where it begins to slip: the force, its limit, and
+     * the part of the way that is left; what is left of the way, elastic */
+    size_t slips, sticks;
+    double x[STRIP], y[STRIP], limit[STRIP], left[STRIP], way[2][STRIP];
+    /* the direction of the force there, that of the way, and the elastic force of the way over the
+     * mean limit */
+    double at[2][STRIP], along[2][STRIP], ratio[STRIP];
+    double turning[2][STRIP], lost[STRIP];
 };
 
-/* The force at the end of a cell's way; what it lost over mu^2; stiffnesses. */
-struct cell_end {
-    double x, y, lost;
-    double stuck, turning[2]; /* of a cell that sticks, and of a force that turns */
-};
+/* Sums in the same order for any vectors. */
+static double sum_of(const double *values, size_t count)
+{
+    double sum[LANES] = {0.0};
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES)
+        for (size_t k = 0; k < LANES; k++)
+            sum[k] += values[i + k];
+    for (; i < count; i++)
+        sum[0] += values[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* So that compilers see a multiple of the lanes, too. */
+EACH_CELL size_t whole(size_t cells)
+{
+    return cells / LANES * LANES;
+}
 
 /* A cell that has slipped before is at its limit: but for rounding. */
 static const double AT_LIMIT = 1e-12;
 
-/* Part of a loop over cells, which is vectorised as a whole. */
-#define EACH_CELL __attribute__((always_inline)) static inline
-
-/* Where the force of a cell reaches its limit, its share there, and the part of the way that is
- * left then: |force + part way| = from + part grown, `way` elastic. Every value is found, also
- * those that do not count, so that a loop over cells needs no branch. */
-struct slip {
-    double x, y, share, left;
-};
-
-EACH_CELL struct slip slip_begin(const struct cell_way *cell, const double way[2])
+/* The elastic forces at the end of the way, and which cells slip. */
+EACH_CELL void try_to_stick(const struct walk *walk, size_t n, const double *x, const double *y,
+                            struct strip *strip)
 {
-    double grown = cell->share - cell->from;
-    double a = way[0] * way[0] + way[1] * way[1] - grown * grown;
-    double b = cell->x * way[0] + cell->y * way[1] - cell->from * grown;
-    double square = cell->from * cell->from;
-    double c = cell->x * cell->x + cell->y * cell->y - square;
-    double under = b * b - a * c;
-    double root = sqrt(under > 0.0 ? under : 0.0);
-    double above = b > 0.0 ? -c : root - b;
-    double below = b > 0.0 ? b + root : a;
-    double part = above / (below > 0.0 ? below : 1.0);
-    part = below > 0.0 ? part : 0.0;
-    part = part > 0.0 ? part : 0.0;
-    part = part < 1.0 ? part : 1.0;
-    double goes_on = b >= 0.0 ? c : -1.0;
-    double least = goes_on == c ? -AT_LIMIT * square : 0.0;
-    part = goes_on >= least ? 0.0 : part;
-    return (struct slip){cell->x + part * way[0], cell->y + part * way[1],
-                         cell->from + part * grown, 1.0 - part};
-}
-
-/* Along a contact's ellipse the slip is not along kappa times the slip: the rest turns the force
- * that has the direction of `at`, of the size `share`, as a way of its own. `grown`: of the limit.
- */
-EACH_CELL void across_kappa(const double ratio[3], const double at[2], double share, double grown,
-                            double way[2])
-{
-    double apart = 0.5 * (ratio[0] - ratio[2]);
-    double x = ratio[0] * at[0] + ratio[1] * at[1], y = ratio[1] * at[0] + ratio[2] * at[1];
-    double slipped = (way[0] * at[0] + way[1] * at[1] - grown * share) / (x * at[0] + y * at[1]);
-    slipped = slipped > 0.0 ? slipped : 0.0;
-    way[0] -= slipped * (apart * at[0] + ratio[1] * at[1]);
-    way[1] -= slipped * (ratio[1] * at[0] - apart * at[1]);
-}
-
-/* The direction of the force at the end of a slip that has a share > 0 at its beginning; *left
- * becomes the share of the trial force that the limit leaves.
- *
- * A force turns towards a straight way by tan(angle/2) = exp(-a) of it before, a the elastic force
- * of the way over the limit: it ends along at + m way, both unit, with m = [(1 + c) q + (1 - c)
- * q/(1 + q)]/2, c their cosine, q = exp(a) - 1 to fourth order. On a way that turns by `turn` it
- * ends further round, by turn ((1 + exp(-a))/2 - (1 - exp(-a))/a): half of it where the force
- * follows the slip, all but none where it hardly slips (a^2/12 and 1/2 - 1/a at the ends). */
-EACH_CELL void slip_direction(const double ratio[3], const struct slip *slip, double share,
-                              const double elastic[2], double turn, double along[2], double *left)
-{
-    double limit = 0.5 * (slip->share + share);
-    const double at[2] = {slip->x, slip->y};
-    /* the chord of what is left of the way */
-    double past = 0.5 * turn * (1.0 - slip->left);
-    double way[2] = {slip->left * (elastic[0] - past * elastic[1]),
-                     slip->left * (elastic[1] + past * elastic[0])};
-    across_kappa(ratio, at, slip->share, share - slip->share, way);
-    double size = sqrt(way[0] * way[0] + way[1] * way[1]);
-    /* a = moved/kept; q times kept^4, the force times kept^8 and what else has no quotient */
-    double kept = limit / (limit + size), moved = 1.0 - kept;
-    double fourth = kept * kept * kept * kept;
-    double q = moved / 4.0 + kept;
-    q = moved / 3.0 * q + kept * kept;
-    q = moved / 2.0 * q + kept * kept * kept;
-    q *= moved;
-    double product = slip->share * size;
-    double cosine = at[0] * way[0] + at[1] * way[1]; /* times the product */
-    double keep = (fourth + q) * fourth * size * size;
-    double follow = q * (fourth * product + 0.5 * q * (product + cosine));
-    double x = keep * at[0] + follow * way[0], y = keep * at[1] + follow * way[1];
-    double by = 0.5 * slip->left * turn * moved * moved /
-                (moved * moved + 2.0 * moved * kept + 6.0 * kept * kept);
-    double round_x = x - by * y, round_y = y + by * x;
-    double square = round_x * round_x + round_y * round_y;
-    /* as if it had not turned yet: shares may fall faster than forces */
-    x = square > 0.0 ? round_x : at[0];
-    y = square > 0.0 ? round_y : at[1];
-    square = square > 0.0 ? square : slip->share * slip->share;
-    double shorter = 1.0 / sqrt(square);
-    along[0] = x * shorter;
-    along[1] = y * shorter;
-    *left = kept;
-}
-
-/* What the slip of a cell lost: what its elastic displacement lacks of the way times the mean of
- * the forces at the limit. */
-EACH_CELL double slip_lost(const double over[3], const double moved[2], const struct cell_way *cell,
-                           const struct slip *slip, const double next[2])
-{
-    double x = moved[0] + cell->before * cell->x - cell->after * next[0];
-    double y = moved[1] + cell->before * cell->y - cell->after * next[1];
-    double sum_x = slip->x + next[0], sum_y = slip->y + next[1];
-    double lost = 0.5 * (sum_x * (over[0] * x + over[1] * y) + sum_y * (over[1] * x + over[2] * y));
-    return lost > 0.0 ? lost : 0.0;
-}
-
-/* One cell that had a share > 0: sticks, or slips at its limit. */
-EACH_CELL struct cell_end cell_follow(const double ratio[3], const double over[3],
-                                      const struct walk *walk, const struct cell_way *cell)
-{
-    const double moved[2] = {walk->moved[0], walk->moved[1]};
-    double way[2] = {cell->stiffness * moved[0], cell->stiffness * moved[1]};
-    double trial[2] = {cell->x + way[0], cell->y + way[1]};
-    double excess = trial[0] * trial[0] + trial[1] * trial[1] - cell->share * cell->share;
-    const struct slip slip = slip_begin(cell, way);
-    double along[2], left;
-    slip_direction(ratio, &slip, cell->share, way, walk->turn, along, &left);
-    double next[2] = {cell->share * along[0], cell->share * along[1]};
-    double lost = slip_lost(over, moved, cell, &slip, next);
-    double turning = cell->stiffness * left;
-    return (struct cell_end){
-        .x = excess > 0.0 ? next[0] : trial[0],
-        .y = excess > 0.0 ? next[1] : trial[1],
-        .lost = excess > 0.0 ? lost : 0.0,
-        .stuck = excess > 0.0 ? 0.0 : cell->stiffness,
-        .turning = {excess > 0.0 ? turning * (1.0 - along[0] * along[0]) : 0.0,
-                    excess > 0.0 ? turning * (1.0 - along[1] * along[1]) : 0.0},
-    };
-}
-
-/* A cell that has just begun to touch has no direction yet: that of its way, in rounds, each of
- * which leaves its part of kappa's anisotropy. */
-static struct cell_end cell_from_rest(const double ratio[3], const double over[3],
-                                      const double moved[2], const struct cell_way *cell)
-{
-    const double way[2] = {cell->stiffness * moved[0], cell->stiffness * moved[1]};
-    double turned[2] = {way[0], way[1]}, n[2] = {0.0, 0.0};
-    double size = sqrt(way[0] * way[0] + way[1] * way[1]);
-    if (size <= cell->share)
-        return (struct cell_end){.x = way[0], .y = way[1], .stuck = cell->stiffness};
-    for (int round = 0; round < 4 && size > 0.0; round++) {
-        n[0] = turned[0] / size;
-        n[1] = turned[1] / size;
-        memcpy(turned, way, sizeof turned);
-        across_kappa(ratio, n, 1.0, cell->share, turned);
-        size = sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+    for (size_t i = 0; i < n; i++) {
+        double to_x = x[i] + strip->stiffness[i] * walk->moved[0];
+        double to_y = y[i] + strip->stiffness[i] * walk->moved[1];
+        double share = strip->share[i];
+        strip->excess[i] = to_x * to_x + to_y * to_y - share * share;
     }
-    n[0] = size > 0.0 ? turned[0] / size : n[0];
-    n[1] = size > 0.0 ? turned[1] / size : n[1];
-    const struct slip slip = {.share = 0.0, .left = 1.0};
-    const double next[2] = {cell->share * n[0], cell->share * n[1]};
-    double limit = 0.5 * cell->share, trial = larger(size, limit);
-    double turning = trial > 0.0 ? cell->stiffness * limit / trial : 0.0;
-    return (struct cell_end){
-        .x = next[0],
-        .y = next[1],
-        .lost = slip_lost(over, moved, cell, &slip, next),
-        .turning = {turning * (1.0 - n[0] * n[0]), turning * (1.0 - n[1] * n[1])},
-    };
+    size_t first = 0, end = n;
+    while (first < n && !(strip->excess[first] > 0.0))
+        first++;
+    while (end > first && !(strip->excess[end - 1] > 0.0))
+        end--;
+    strip->slips = whole(first);
+    strip->sticks = whole(end + LANES - 1);
 }
 
-/* A cell of a history along one line. */
-static struct cell_end cell_on_line(const double over[3], double moved, const struct cell_way *cell)
+/* Whether all cells that slip have slipped before and go on: they begin with the way. */
+EACH_CELL bool slip_goes_on(const struct walk *walk, const double *from, const double *x,
+                            const double *y, const struct strip *strip)
 {
-    double trial = cell->x + cell->stiffness * moved;
-    double next = larger(-cell->share, smaller(trial, cell->share));
-    if (next == trial)
-        return (struct cell_end){.x = next, .stuck = cell->stiffness};
-    double slip = moved + cell->before * cell->x - cell->after * next;
-    double force = next + (next > 0.0 ? larger(cell->x, 0.0) : smaller(cell->x, 0.0));
-    return (struct cell_end){.x = next, .lost = 0.5 * over[0] * larger(force * slip, 0.0)};
+    double begin = 0.0;
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        double way = x[i] * walk->moved[0] + y[i] * walk->moved[1];
+        double grown = strip->share[i] - from[i], square = from[i] * from[i];
+        bool on = strip->stiffness[i] * way >= from[i] * grown &&
+                  x[i] * x[i] + y[i] * y[i] - square >= -AT_LIMIT * square;
+        begin += on || !(strip->excess[i] > 0.0) ? 0.0 : 1.0;
+    }
+    return begin == 0.0;
 }
 
-/* A cell that opens or closes on the way. */
-static void cell_walk(struct friction *friction, size_t i, const struct cell_way *cell,
-                      struct walk *walk)
+/* Where the forces reach their limits: |force + part way| = from + part grown, `way` elastic. Every
+ * value is found, also those that do not count, so that a loop over cells needs no branch. */
+EACH_CELL void begin_slip(const struct walk *walk, const double *from, const double *x,
+                          const double *y, struct strip *strip)
 {
-    struct cell_end end = {.x = 0.0};
-    const double *ratio = friction->ratio, *over = friction->over_ratio, *moved = walk->moved;
-    if (friction->line)
-        end = cell_on_line(over, moved[0], cell);
-    else if (cell->share > 0.0)
-        end = cell->from > 0.0 ? cell_follow(ratio, over, walk, cell)
-                               : cell_from_rest(ratio, over, moved, cell);
-    friction->share[i] = cell->share;
-    friction->traction[0][i] = end.x;
-    friction->traction[1][i] = end.y;
-    walk->force[0] += end.x;
-    walk->force[1] += end.y;
-    walk->lost += end.lost;
-    walk->stuck += end.stuck;
-    for (int j = 0; j < 2; j++)
-        walk->turning[j] += end.turning[j];
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        double stiffness = strip->stiffness[i], grown = strip->share[i] - from[i];
+        const double way[2] = {stiffness * walk->moved[0], stiffness * walk->moved[1]};
+        double a = way[0] * way[0] + way[1] * way[1] - grown * grown;
+        double b = x[i] * way[0] + y[i] * way[1] - from[i] * grown;
+        double square = from[i] * from[i];
+        double c = x[i] * x[i] + y[i] * y[i] - square;
+        double under = b * b - a * c;
+        double root = sqrt(under > 0.0 ? under : 0.0);
+        double above = b > 0.0 ? -c : root - b;
+        double below = b > 0.0 ? b + root : a;
+        double part = above / (below > 0.0 ? below : 1.0);
+        part = below > 0.0 ? part : 0.0;
+        part = part > 0.0 ? part : 0.0;
+        part = part < 1.0 ? part : 1.0;
+        double goes_on = b >= 0.0 ? c : -1.0;
+        double least = goes_on == c ? -AT_LIMIT * square : 0.0;
+        part = goes_on >= least ? 0.0 : part;
+        strip->x[i] = x[i] + part * way[0];
+        strip->y[i] = y[i] + part * way[1];
+        strip->limit[i] = from[i] + part * grown;
+        strip->left[i] = 1.0 - part;
+    }
+}
+
+EACH_CELL void go_on_slipping(const double *from, const double *x, const double *y,
+                              struct strip *strip)
+{
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        strip->x[i] = x[i];
+        strip->y[i] = y[i];
+        strip->limit[i] = from[i];
+        strip->left[i] = 1.0;
+    }
+}
+
+/* What is left of the way, by its chord, and the direction of the force. Along a contact's ellipse
+ * the slip is not along kappa times the slip: the rest turns the force as a way of its own. */
+EACH_CELL void find_ways(const double kappa[3], const struct walk *walk, struct strip *strip)
+{
+    double apart = 0.5 * (kappa[0] - kappa[2]);
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        double x = strip->x[i], y = strip->y[i], limit = strip->limit[i];
+        double past = 0.5 * walk->turn * (1.0 - strip->left[i]);
+        double part = strip->left[i] * strip->stiffness[i];
+        double way_x = part * (walk->moved[0] - past * walk->moved[1]);
+        double way_y = part * (walk->moved[1] + past * walk->moved[0]);
+        double square = x * (kappa[0] * x + kappa[1] * y) + y * (kappa[1] * x + kappa[2] * y);
+        double product = square * limit;
+        double over = 1.0 / (product > 0.0 ? product : 1.0);
+        double slipped = (way_x * x + way_y * y - (strip->share[i] - limit) * limit) * limit * over;
+        slipped = slipped > 0.0 ? slipped : 0.0;
+        strip->way[0][i] = way_x - slipped * (apart * x + kappa[1] * y);
+        strip->way[1][i] = way_y - slipped * (kappa[1] * x - apart * y);
+        strip->at[0][i] = x * square * over;
+        strip->at[1][i] = y * square * over;
+    }
+}
+
+/* Beyond this ratio the force has the direction of the way, whatever it was. */
+static const double FOLLOWS = 1e6;
+
+EACH_CELL void find_ratios(struct strip *strip)
+{
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        double x = strip->way[0][i], y = strip->way[1][i];
+        double size = sqrt(x * x + y * y);
+        double limit = 0.5 * (strip->limit[i] + strip->share[i]);
+        double product = size * limit;
+        double over = product > 0.0 ? 1.0 / product : 0.0;
+        double ratio = size * size * over;
+        strip->along[0][i] = x * limit * over;
+        strip->along[1][i] = y * limit * over;
+        strip->ratio[i] = ratio < FOLLOWS ? ratio : FOLLOWS;
+    }
+}
+
+/* The forces at the end of the slip, and the slopes across them.
+ *
+ * A force turns towards a straight way by tan(angle/2) = exp(-a) of it before, a the ratio: from
+ * the direction n it ends along 2 (1 + q) n + q (2 + (1 + c) q) way, of size 2 + (1 + c) q (2 + q),
+ * with n and the way unit, c their cosine, q = exp(a) - 1 to fourth order. On a way that turns by
+ * `turn` it ends further round, by turn ((1 + exp(-a))/2 - (1 - exp(-a))/a): half of it where the
+ * force follows the slip, all but none where it hardly slips (a^2/12 and 1/2 - 1/a at the ends);
+ * half of that is the tangent of half the angle here. */
+EACH_CELL void turn_forces(const struct walk *walk, struct strip *strip)
+{
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        const double at[2] = {strip->at[0][i], strip->at[1][i]};
+        const double way[2] = {strip->along[0][i], strip->along[1][i]};
+        double a = strip->ratio[i];
+        double cosine = at[0] * way[0] + at[1] * way[1];
+        double q = a * (1.0 + a * (1.0 / 2.0 + a * (1.0 / 6.0 + a * (1.0 / 24.0))));
+        double more = (1.0 + cosine) * q;
+        double keep = 2.0 + 2.0 * q, follow = q * (2.0 + more), size = 2.0 + more * (2.0 + q);
+        double from_x = keep * at[0] + follow * way[0], from_y = keep * at[1] + follow * way[1];
+        double by = 0.25 * strip->left[i] * walk->turn * a * a, whole = a * a + 2.0 * a + 6.0;
+        double with = whole * whole - by * by, across = 2.0 * whole * by;
+        size *= whole * whole + by * by;
+        double kept = 1.0 / ((1.0 + a) * size);
+        double over = (1.0 + a) * kept;
+        double to_x = over * (with * from_x - across * from_y);
+        double to_y = over * (with * from_y + across * from_x);
+        /* unit but for rounding */
+        double square = to_x * to_x + to_y * to_y, unit = 1.5 - 0.5 * square;
+        to_x *= unit;
+        to_y *= unit;
+        double turning = strip->stiffness[i] * size * kept;
+        bool slips = strip->excess[i] > 0.0;
+        strip->turning[0][i] = slips ? turning * (1.0 - to_x * to_x) : 0.0;
+        strip->turning[1][i] = slips ? turning * (1.0 - to_y * to_y) : 0.0;
+        strip->along[0][i] = strip->share[i] * to_x;
+        strip->along[1][i] = strip->share[i] * to_y;
+    }
+}
+
+/* What the slips lost: what elastic displacements lack of the way times the mean of the forces at
+ * the limits. */
+EACH_CELL void lose(const double over[3], const struct walk *walk, const double *x, const double *y,
+                    struct strip *strip)
+{
+    const double o[3] = {0.5 * over[0], 0.5 * over[1], 0.5 * over[2]};
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        double next_x = strip->along[0][i], next_y = strip->along[1][i];
+        double moved_x = walk->moved[0] + strip->before[i] * x[i] - strip->after[i] * next_x;
+        double moved_y = walk->moved[1] + strip->before[i] * y[i] - strip->after[i] * next_y;
+        double sum_x = strip->x[i] + next_x, sum_y = strip->y[i] + next_y;
+        double lost =
+            sum_x * (o[0] * moved_x + o[1] * moved_y) + sum_y * (o[1] * moved_x + o[2] * moved_y);
+        strip->lost[i] = strip->excess[i] > 0.0 && lost > 0.0 ? lost : 0.0;
+    }
+}
+
+/* The forces at the end of the way of all cells. */
+EACH_CELL void take_ends(const struct walk *walk, size_t n, double *x, double *y,
+                         struct strip *strip)
+{
+    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+        bool slips = strip->excess[i] > 0.0;
+        double to_x = x[i] + strip->stiffness[i] * walk->moved[0];
+        double to_y = y[i] + strip->stiffness[i] * walk->moved[1];
+        x[i] = slips ? strip->along[0][i] : to_x;
+        y[i] = slips ? strip->along[1][i] : to_y;
+        strip->stiffness[i] = slips ? 0.0 : strip->stiffness[i];
+    }
+    const size_t begin[2] = {0, strip->sticks}, end[2] = {strip->slips, n};
+    for (int side = 0; side < 2; side++)
+        for (size_t i = begin[side]; i < end[side]; i++) {
+            x[i] += strip->stiffness[i] * walk->moved[0];
+            y[i] += strip->stiffness[i] * walk->moved[1];
+        }
+}
+
+/* A cell that has just begun to touch has no direction yet: that of its way, in two rounds, each of
+ * which leaves its part of kappa's anisotropy. */
+static void begin_from_rest(const double kappa[3], const struct walk *walk, size_t i,
+                            struct strip *strip)
+{
+    double apart = 0.5 * (kappa[0] - kappa[2]), stiffness = strip->stiffness[i];
+    const double way[2] = {stiffness * walk->moved[0], stiffness * walk->moved[1]};
+    double turned[2] = {way[0], way[1]};
+    for (int round = 0; round < 2; round++) {
+        double over = 1.0 / sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+        double x = turned[0] * over, y = turned[1] * over;
+        double slipped = (way[0] * x + way[1] * y - strip->share[i]) /
+                         (x * (kappa[0] * x + kappa[1] * y) + y * (kappa[1] * x + kappa[2] * y));
+        slipped = slipped > 0.0 ? slipped : 0.0;
+        turned[0] = way[0] - slipped * (apart * x + kappa[1] * y);
+        turned[1] = way[1] - slipped * (kappa[1] * x - apart * y);
+    }
+    double over = 1.0 / sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+    for (int j = 0; j < 2; j++) {
+        strip->way[j][i] = turned[j];
+        strip->at[j][i] = turned[j] * over;
+    }
+}
+
+/* Cells of a history in the plane; those from `closed` on open or close on the way. */
+VECTOR_CLONES static void walk_plane(const struct friction *friction, size_t closed, size_t n,
+                                     const double *from, double *x, double *y, struct strip *strip,
+                                     struct walk *walk)
+{
+    /* copies that no store into the cells can change */
+    const struct walk way = {.moved = {walk->moved[0], walk->moved[1]}, .turn = walk->turn};
+    const double kappa[3] = {friction->ratio[0], friction->ratio[1], friction->ratio[2]};
+    const double *of = friction->over_ratio, over[3] = {of[0], of[1], of[2]};
+    try_to_stick(&way, n, x, y, strip);
+    if (strip->slips < strip->sticks) {
+        if (slip_goes_on(&way, from, x, y, strip))
+            go_on_slipping(from, x, y, strip);
+        else
+            begin_slip(&way, from, x, y, strip);
+        find_ways(kappa, &way, strip);
+        for (size_t i = closed; i < n; i++)
+            if (!(from[i] > 0.0) && strip->excess[i] > 0.0)
+                begin_from_rest(kappa, &way, i, strip);
+        find_ratios(strip);
+        turn_forces(&way, strip);
+        lose(over, &way, x, y, strip);
+        size_t first = strip->slips, slipping = strip->sticks - first;
+        walk->lost += sum_of(strip->lost + first, slipping);
+        walk->turning[0] += sum_of(strip->turning[0] + first, slipping);
+        walk->turning[1] += sum_of(strip->turning[1] + first, slipping);
+    }
+    take_ends(&way, n, x, y, strip);
+    walk->stuck += sum_of(strip->stiffness, n);
+    walk->force[0] += sum_of(x, n);
+    walk->force[1] += sum_of(y, n);
+}
+
+/* The same of a history along one line. */
+VECTOR_CLONES static void walk_line(const struct friction *friction, size_t n, double *x,
+                                    struct strip *strip, struct walk *walk)
+{
+    double moved = walk->moved[0];
+    for (size_t i = 0; i < n; i++) {
+        double share = strip->share[i];
+        double trial = x[i] + strip->stiffness[i] * moved;
+        double next = trial < share ? trial : share;
+        next = next > -share ? next : -share;
+        double slip = moved + strip->before[i] * x[i] - strip->after[i] * next;
+        double before = x[i] * next > 0.0 ? x[i] : 0.0;
+        double lost = (next + before) * slip;
+        bool slips = next != trial;
+        strip->lost[i] = slips && lost > 0.0 ? lost : 0.0;
+        strip->stiffness[i] = slips ? 0.0 : strip->stiffness[i];
+        x[i] = next;
+    }
+    walk->force[0] += sum_of(x, n);
+    walk->stuck += sum_of(strip->stiffness, n);
+    walk->lost += 0.5 * friction->over_ratio[0] * sum_of(strip->lost, n);
 }
 
 /* The part of a cell that opens gives up its part of the force, whose elastic energy is lost. */
@@ -535,100 +641,6 @@ static void cell_open(struct friction *friction, size_t i, double before, double
     *y *= left;
 }
 
-/* A way shorter than this share of the indentation has the stiffness of its end: differences of
- * shares over it would lose digits. */
-static const double SHORT = 1e-6;
-
-/* Sums in the same order for any vectors. */
-enum { SUMS = 4 };
-
-static double sum_of(const double *values, size_t count)
-{
-    double sum[SUMS] = {0.0};
-    size_t i = 0;
-    for (; i + SUMS <= count; i += SUMS)
-        for (size_t k = 0; k < SUMS; k++)
-            sum[k] += values[i + k];
-    for (; i < count; i++)
-        sum[0] += values[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/* Cells at a time of walk_line. */
-enum { STRIP = 64 };
-
-/* Cells that are closed throughout, before and after, of a history along one line: as cell_walk. */
-VECTOR_CLONES static void walk_line(struct friction *friction, size_t count, double indentation,
-                                    struct walk *walk)
-{
-    double moved = walk->moved[0];
-    for (size_t first = 0; first < count; first += STRIP) {
-        double stuck[STRIP], lost[STRIP];
-        size_t n = count - first < STRIP ? count - first : STRIP;
-        const double *restrict base = friction->base + first;
-        const double *restrict stiffness = friction->stiffness + first;
-        const double *restrict compliance = friction->compliance + first;
-        double *restrict share = friction->share + first;
-        double *restrict x = friction->traction[0] + first;
-        for (size_t i = 0; i < n; i++) {
-            double limit = base[i] + stiffness[i] * indentation;
-            double trial = x[i] + stiffness[i] * moved;
-            double next = trial < limit ? trial : limit;
-            next = next > -limit ? next : -limit;
-            double slip = trial - next; /* times the stiffness */
-            double before = x[i] * slip;
-            before = before > 0.0 ? before : 0.0;
-            lost[i] = (next * slip + before) * compliance[i];
-            stuck[i] = slip == 0.0 ? stiffness[i] : 0.0;
-            share[i] = limit;
-            x[i] = next;
-        }
-        walk->force[0] += sum_of(x, n);
-        walk->stuck += sum_of(stuck, n);
-        walk->lost += 0.5 * friction->over_ratio[0] * sum_of(lost, n);
-    }
-}
-
-/* The same of a history in the plane. */
-VECTOR_CLONES static void walk_plane(struct friction *friction, size_t count, double indentation,
-                                     struct walk *walk)
-{
-    const double ratio[3] = {friction->ratio[0], friction->ratio[1], friction->ratio[2]};
-    const double over[3] = {friction->over_ratio[0], friction->over_ratio[1],
-                            friction->over_ratio[2]};
-    const struct walk way = {.moved = {walk->moved[0], walk->moved[1]}, .turn = walk->turn};
-    for (size_t first = 0; first < count; first += STRIP) {
-        double stuck[STRIP], lost[STRIP], turning[2][STRIP];
-        size_t n = count - first < STRIP ? count - first : STRIP;
-        const double *restrict base = friction->base + first;
-        const double *restrict stiffness = friction->stiffness + first;
-        const double *restrict compliance = friction->compliance + first;
-        double *restrict share = friction->share + first;
-        double *restrict x = friction->traction[0] + first;
-        double *restrict y = friction->traction[1] + first;
-        VECTOR_APART
-        for (size_t i = 0; i < n; i++) {
-            const struct cell_way cell = {
-                x[i],         y[i],          share[i],     base[i] + stiffness[i] * indentation,
-                stiffness[i], compliance[i], compliance[i]};
-            const struct cell_end end = cell_follow(ratio, over, &way, &cell);
-            share[i] = cell.share;
-            x[i] = end.x;
-            y[i] = end.y;
-            lost[i] = end.lost;
-            stuck[i] = end.stuck;
-            turning[0][i] = end.turning[0];
-            turning[1][i] = end.turning[1];
-        }
-        walk->force[0] += sum_of(x, n);
-        walk->force[1] += sum_of(y, n);
-        walk->lost += sum_of(lost, n);
-        walk->stuck += sum_of(stuck, n);
-        walk->turning[0] += sum_of(turning[0], n);
-        walk->turning[1] += sum_of(turning[1], n);
-    }
-}
-
 /* A way leaves the line by an elastic force across it that is more than rounding of the limit. */
 static bool stays_on_line(const struct friction *friction, const struct normal *to,
                           const struct walk *walk)
@@ -637,38 +649,78 @@ static bool stays_on_line(const struct friction *friction, const struct normal *
            fabs(walk->moved[1]) * to->slope <= STRAIGHT * larger(to->force, friction->normal);
 }
 
-/* From one indentation >= 0 to another, whether the branch has moved between them. */
-static void walk_cells(struct friction *friction, const struct normal *from,
-                       const struct normal *to, bool yielded, struct walk *walk)
+/* A way shorter than this share of the indentation has the stiffness of its end: differences of
+ * shares over it would lose digits. */
+static const double SHORT = 1e-6;
+
+/* The ends of a walk's way >= 0, and whether the branch has moved between them. */
+struct span {
+    struct normal from, to;
+    bool yielded, is_short;
+};
+
+/* Cell `first + i`, which opens or closes: on one branch a share is the integral of its stiffness,
+ * which gives the mean over the way. */
+static void set_edge(struct friction *friction, const struct span *span, size_t first, size_t i,
+                     struct strip *strip, struct walk *walk)
 {
-    double way = to->indentation - from->indentation;
-    bool is_short = !(fabs(way) > SHORT * larger(to->indentation, from->indentation));
-    size_t first = to->last < from->last ? to->last : from->last;
-    size_t last = to->last > from->last ? to->last : from->last;
-    if (last >= friction->reached)
-        friction->reached = last + 1;
-    /* closed throughout, before and after */
+    size_t cell = first + i;
+    double before = cell_stiffness(friction, cell, &span->from);
+    double after = cell_stiffness(friction, cell, &span->to);
+    double share = cell_share(friction, cell, &span->to);
+    double mean = span->yielded    ? 0.5 * (before + after)
+                  : span->is_short ? after
+                                   : (share - friction->share[cell]) /
+                                         (span->to.indentation - span->from.indentation);
+    if (after < before)
+        cell_open(friction, cell, before, after, walk);
+    before = smaller(before, after);
+    strip->share[i] = share;
+    strip->stiffness[i] = share > 0.0 ? mean : 0.0;
+    strip->before[i] = before > 0.0 ? 1.0 / before : 0.0;
+    strip->after[i] = after > 0.0 ? 1.0 / after : 0.0;
+}
+
+/* Cells from `first` on: those that are closed throughout, before and after, then the others, then
+ * none up to whole lanes. */
+static void fill_strip(struct friction *friction, const struct span *span, size_t first,
+                       size_t closed, size_t n, struct strip *strip, struct walk *walk)
+{
+    const double *restrict base = friction->base + first;
+    const double *restrict stiffness = friction->stiffness + first;
+    const double *restrict compliance = friction->compliance + first;
+    for (size_t i = 0; i < closed; i++) {
+        strip->share[i] = base[i] + stiffness[i] * span->to.indentation;
+        strip->stiffness[i] = stiffness[i];
+        strip->before[i] = strip->after[i] = compliance[i];
+    }
+    for (size_t i = closed; i < n; i++)
+        set_edge(friction, span, first, i, strip, walk);
+    for (size_t i = n; i < whole(n + LANES - 1); i++)
+        strip->share[i] = strip->stiffness[i] = strip->before[i] = strip->after[i] =
+            strip->excess[i] = 0.0;
+}
+
+static void walk_cells(struct friction *friction, const struct span *span, struct walk *walk)
+{
+    const struct normal *from = &span->from, *to = &span->to;
+    size_t closed = to->last < from->last ? to->last : from->last;
+    size_t end = (to->last > from->last ? to->last : from->last) + 1;
+    struct strip strip;
+    if (end > friction->reached)
+        friction->reached = end;
     friction->line = stays_on_line(friction, to, walk);
-    (friction->line ? walk_line : walk_plane)(friction, first, to->indentation, walk);
-    /* those that open or close: on one branch a share is the integral of its stiffness, which gives
-     * the mean over the way */
-    for (size_t i = first; i <= last; i++) {
-        double before = cell_stiffness(friction, i, from), after = cell_stiffness(friction, i, to);
-        double share = cell_share(friction, i, to);
-        double mean = yielded    ? 0.5 * (before + after)
-                      : is_short ? after
-                                 : (share - friction->share[i]) / way;
-        if (after < before)
-            cell_open(friction, i, before, after, walk);
-        before = smaller(before, after);
-        const struct cell_way cell = {friction->traction[0][i],
-                                      friction->traction[1][i],
-                                      friction->share[i],
-                                      share,
-                                      mean,
-                                      before > 0.0 ? 1.0 / before : 0.0,
-                                      after > 0.0 ? 1.0 / after : 0.0};
-        cell_walk(friction, i, &cell, walk);
+    for (size_t first = 0; first < end; first += STRIP) {
+        double *share = friction->share + first;
+        double *x = friction->traction[0] + first, *y = friction->traction[1] + first;
+        size_t n = end - first < STRIP ? end - first : STRIP;
+        size_t before = closed < first ? 0 : closed - first < n ? closed - first : n;
+        fill_strip(friction, span, first, before, n, &strip, walk);
+        if (friction->line)
+            walk_line(friction, n, x, &strip, walk);
+        else
+            walk_plane(friction, before, n, share, x, y, &strip, walk);
+        memcpy(share, strip.share, n * sizeof *share);
     }
 }
 
@@ -754,11 +806,13 @@ void friction_walk_curved(struct friction *friction, double indentation,
         walk.turn = part * turn_of(walk.moved, heading);
     }
     if (before > 0.0 || indentation > 0.0) {
-        const struct normal from = normal_at(friction, before);
-        bool yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);
-        const struct normal to = normal_at(friction, indentation);
-        walk_cells(friction, &from, &to, yielded, &walk);
-        friction->normal = to.force;
+        struct span span = {.from = normal_at(friction, before)};
+        span.yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);
+        span.to = normal_at(friction, indentation);
+        double way = fabs(span.to.indentation - span.from.indentation);
+        span.is_short = !(way > SHORT * larger(span.to.indentation, span.from.indentation));
+        walk_cells(friction, &span, &walk);
+        friction->normal = span.to.force;
     }
     friction->indentation = indentation;
     find_slopes(friction, &walk);
