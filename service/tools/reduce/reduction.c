@@ -435,9 +435,9 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
                                                                      : reduction->cost.memory);
     double each = reduction->sample.seconds;
     reduction->statics =
-        ((double)sites * each +
-         modes_statics_seconds(&reduction->factor_cost, &reduction->rates, n,
-                               FLEXIBILITY_LOADS * sites, count < REMOVED ? count : REMOVED)) /
+        ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, &reduction->rates, n,
+                                                      FLEXIBILITY_LOADS * sites,
+                                                      count < REMOVED ? count : REMOVED)) /
         (double)processes_for(reduction);
     reduction->progress.work = rates_clock();
     reduction->progress.expected = reduction->cost.seconds + reduction->statics;
