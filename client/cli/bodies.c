@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "body_json.h"
 #include "cli.h"
 #include "csv.h"
 #include "json_writer.h"
@@ -13,65 +14,12 @@
 
 enum { OPTION_CHECK = OPTION_OWN, OPTION_CSV };
 
-static json_t *numbers(const double *values, size_t count)
-{
-    json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_number(values[i]));
-    return array;
-}
-
-static json_t *supports(const struct percuss_body *body)
-{
-    static const char *const names[] = {"free", "pinned", "clamped"};
-    json_t *array = json_array();
-    for (int i = 0; i < 2; i++) {
-        unsigned support = body->supports[i];
-        json_array_append_new(array, json_string(support < 3 ? names[support] : "?"));
-    }
-    return array;
-}
-
-static json_t *sites(const struct percuss_body *body)
-{
-    json_t *array = json_array();
-    for (size_t i = 0; i < body->site_count; i++) {
-        json_t *object = json_object();
-        json_object_set_new(object, "name", json_string(body->sites[i].name));
-        json_object_set_new(object, "point", numbers(body->sites[i].point, 3));
-        json_object_set_new(object, "normal", numbers(body->sites[i].normal, 3));
-        json_array_append_new(array, object);
-    }
-    return array;
-}
-
 static void print_json(const struct percuss_body_list *list)
 {
-    json_t *root = json_object(), *array = json_array();
-    json_object_set_new(root, "bodies", array);
-    for (size_t i = 0; i < list->count; i++) {
-        const struct percuss_body *body = &list->bodies[i];
-        json_t *object = json_object();
-        json_object_set_new(object, "id", json_string(body->id));
-        json_object_set_new(object, "shape", json_string(body->shape));
-        json_object_set_new(object, "material", json_string(body->material));
-        json_object_set_new(object, "mass", json_number(body->mass));
-        json_object_set_new(object, "description", json_string(body->description));
-        json_object_set_new(object, "half_extents", numbers(body->half_extents, 3));
-        json_object_set_new(object, "radius", json_number(body->radius));
-        json_object_set_new(object, "tip_radius", json_number(body->tip_radius));
-        json_object_set_new(object, "supports", supports(body));
-        /* the others under the names that inputs have */
-        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
-            if (p != PERCUSS_PARAMETER_RADIUS)
-                json_object_set_new(object, percuss_parameter_name(p),
-                                    json_number(body->parameters[p]));
-        json_object_set_new(object, "inertia", numbers(body->inertia, 3));
-        json_object_set_new(object, "products", numbers(body->products, 3));
-        json_object_set_new(object, "sites", sites(body));
-        json_array_append_new(array, object);
-    }
-    json_print(root);
+    json_t *array = json_array();
+    for (size_t i = 0; i < list->count; i++)
+        json_array_append_new(array, body_to_json(&list->bodies[i]));
+    json_print(json_pack("{so}", "bodies", array));
 }
 
 static void print_csv(const struct percuss_body_list *list, bool units)

@@ -33,6 +33,7 @@ struct common {
     const char *security;                /* folder of the identity to use; NULL: not given */
     bool local;                          /* solve in this process; by these files, or NULL */
     const char *catalogue, *config;
+    char *const *words; /* the whole command line, NULL at its end; NULL: not known */
     solve_ensemble_function *solve_ensemble; /* NULL: percuss_solve_ensemble */
 };
 

@@ -18,15 +18,14 @@ json_t *json_number(double number)
     return isfinite(number) ? json_real(number) : json_null();
 }
 
-/* Null for text that is not UTF-8. NULL: out of memory, here and below. */
-static json_t *text(const char *text)
+json_t *json_text_or_null(const char *text)
 {
     errno = 0;
     json_t *value = json_string(text);
     return value || errno == ENOMEM ? value : json_null();
 }
 
-/* An array or object without one of its members is none. */
+/* An array or object without one of its members is none. NULL: out of memory, here and below. */
 static json_t *whole_or_none(json_t *value, bool whole)
 {
     if (whole)
@@ -65,7 +64,7 @@ static json_t *texts(char *const *texts, size_t count)
     json_t *array = json_array();
     bool good = array;
     for (size_t i = 0; good && i < count; i++)
-        good = json_array_append_new(array, text(texts[i])) == 0;
+        good = json_array_append_new(array, json_text_or_null(texts[i])) == 0;
     return whole_or_none(array, good);
 }
 
@@ -105,7 +104,7 @@ static json_t *value(const struct json_member *member, const void *source)
     case JSON_KIND_VECTOR:
         return numbers(at, member->size);
     case JSON_KIND_TEXT:
-        return text(at);
+        return json_text_or_null(at);
     case JSON_KIND_OCTETS:
         return octets(at);
     case JSON_KIND_COUNT:
@@ -115,7 +114,7 @@ static json_t *value(const struct json_member *member, const void *source)
     case JSON_KIND_FLAG:
         return json_boolean(*(const bool *)at);
     case JSON_KIND_CHOICE:
-        return text(member->name_of(*(const unsigned *)at));
+        return json_text_or_null(member->name_of(*(const unsigned *)at));
     case JSON_KIND_OVERRIDES:
         return overrides(member, at, count_of(member, source));
     case JSON_KIND_OBJECT:

@@ -16,6 +16,9 @@ json_t *json_object_of(const struct json_member *members, const void *source);
 /* A number, or null where it is undefined or infinite. */
 json_t *json_number(double number);
 
+/* A text, or null where it is not UTF-8. NULL: out of memory. */
+json_t *json_text_or_null(const char *text);
+
 /* As text with 17 significant digits, for free(). NULL: out of memory, or no value. */
 char *json_text(const json_t *value);
 

@@ -104,6 +104,12 @@ int main(int argc, char **argv)
 {
     struct invocation invocation = {.common = {.timeout = NAN, .domain = environment_domain()}};
     environment_server(invocation.common.server);
+    /* argp changes the order of its words */
+    char **words = malloc(((size_t)argc + 1) * sizeof *words);
+    if (!words)
+        return complain_memory();
+    memcpy(words, argv, ((size_t)argc + 1) * sizeof *words);
+    invocation.common.words = words;
     argp_err_exit_status = EXIT_USAGE;
     fold_help();
     argp_parse(&main_argp, argc, argv, ARGP_IN_ORDER, NULL, &invocation);
@@ -118,6 +124,7 @@ int main(int argc, char **argv)
     int code = strcmp(name, "help") ? run(name, argc, argv, &invocation.common)
                                     : help(argc, argv, &invocation.common);
     fold_end();
+    free(words);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         complain("writing the output failed");
         return EXIT_FAILURE;

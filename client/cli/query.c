@@ -14,6 +14,7 @@
 #include "csv.h"
 #include "ensemble_output.h"
 #include "fall.h"
+#include "html_impact.h"
 #include "json_writer.h"
 #include "measured_file.h"
 #include "output_file.h"
@@ -251,6 +252,7 @@ enum {
     KEY_SPECIMEN_A,
     KEY_SPECIMEN_B,
     KEY_TRACE,
+    KEY_HTML,
     KEY_MEASURED,
     KEY_CSV
 };
@@ -267,6 +269,7 @@ struct query {
     const char *file;
     bool csv;
     const char *trace; /* file; NULL: not wanted */
+    const char *html;  /* likewise */
     struct plot_output plot;
     struct impact_measured measured[MOST_SPEEDS]; /* laid over the picture */
     size_t measured_count;
@@ -291,6 +294,8 @@ static const struct argp_option options[] = {
     {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
      30},
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
+    {"html", KEY_HTML, "FILE", 0,
+     "write the impact as a page for a browser: its bodies in motion, histories and numbers", 40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
      "lay a measured history over the picture: columns time, velocity_a or displacement_a, and "
      "those of b; given several times, each over another speed",
@@ -308,6 +313,7 @@ static void check_several(const struct query *query, struct argp_state *state)
     bool several = query->speed_count > 1 || scene->model_count > 1;
     bool specimen = query->specimens[0] || query->specimens[1];
     const char *option = query->trace               ? "trace"
+                         : query->html              ? "html"
                          : query->speed_sigma > 0.0 ? "speed-sigma"
                          : specimen                 ? "specimen"
                                                     : NULL;
@@ -417,6 +423,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
             output_file_check("trace", text, state);
         query->trace = text;
         return 0;
+    case KEY_HTML:
+        output_file_check("html", text, state);
+        query->html = text;
+        return 0;
     case KEY_CSV:
         query->csv = true;
         return 0;
@@ -500,7 +510,7 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
     struct percuss_ensemble_reply spread = {0};
     double timeout = common_timeout(query->common);
     /* histories only where something is made of them */
-    bool traced = query->trace || plot_wanted(&query->plot);
+    bool traced = query->trace || query->html || plot_wanted(&query->plot);
     waiting_begin(query->common, asking->client, NULL);
     enum percuss_result result =
         traced
@@ -525,6 +535,21 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
                                        : complain_result(result);
 }
 
+/* The page of the one answer. */
+static int write_page(const struct asking *asking)
+{
+    const struct query *query = asking->query;
+    struct percuss_body_list list;
+    enum percuss_result result =
+        percuss_bodies(asking->client, common_timeout(query->common), &list);
+    int code = result == PERCUSS_RESULT_OK
+                   ? html_impact(query->html, &asking->runs[0], &list,
+                                 query->file ? NULL : asking->text.title, query->common)
+                   : complain_result(result);
+    percuss_body_list_free(&list);
+    return code;
+}
+
 /* Files of the histories; a refused one has none. */
 static int write_files(const struct asking *asking)
 {
@@ -545,6 +570,8 @@ static int write_files(const struct asking *asking)
                                            query->measured};
     if (code == EXIT_ANSWERED && plot_wanted(&query->plot))
         code = plot_impact(&query->plot, &picture);
+    if (code == EXIT_ANSWERED && query->html)
+        code = write_page(asking);
     return code;
 }
 

@@ -17,6 +17,7 @@
 
 #include "json_fields.h"
 #include "json_schema.h"
+#include "json_writer.h"
 
 /* Strict reading of JSON objects into structs by a table of members. Every failure names the path
  * of the member, its value and what is allowed. */
@@ -244,6 +245,43 @@ static bool json_read_object(const json_t *object, const struct json_path *path,
 JSON_TABLE(body_motion, PERCUSS_BODY_FIELDS)
 JSON_TABLE(contact, PERCUSS_CONTACT_FIELDS)
 JSON_TABLE(options, PERCUSS_OPTION_FIELDS)
+
+/* Elements of a request as an array. NULL: out of memory. */
+static json_t *array_of(const struct json_member *members, const char *elements, size_t count,
+                        size_t size)
+{
+    json_t *array = json_array();
+    bool good = array;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_array_append_new(array, json_object_of(members, elements + i * size)) == 0;
+    if (good)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
+json_t *request_to_json(const struct percuss_request *request)
+{
+    json_t *object = json_pack("{sososo}", "bodies",
+                               array_of(body_motion_members(), (const char *)request->bodies,
+                                        request->body_count, sizeof *request->bodies),
+                               "contacts",
+                               array_of(contact_members(), (const char *)request->contacts,
+                                        request->contact_count, sizeof *request->contacts),
+                               "options", json_object_of(options_members(), &request->options));
+    size_t rows = request->delassus_rows ? request->delassus_rows : request->contact_count;
+    rows = request->delassus ? rows : 0;
+    json_t *delassus = object && rows ? json_array() : NULL;
+    bool good = object && (rows == 0 || delassus);
+    for (size_t i = 0; good && i < rows * rows; i++)
+        good = json_array_append_new(delassus, json_number(request->delassus[i])) == 0;
+    if (delassus)
+        good = json_object_set_new(object, "delassus", delassus) == 0 && good;
+    if (good)
+        return object;
+    json_decref(object);
+    return NULL;
+}
 
 /* Whether it is an array of at most `most` elements. */
 static bool check_array(const json_t *array, const struct json_path *path, size_t most,

@@ -29,6 +29,10 @@ bool request_json_read(const json_t *root, struct json_request *request, struct 
 /* The same from a file, or standard input for "-"; also false for text that is not JSON. */
 bool request_json_load(const char *file, struct json_request *request, struct json_fault *fault);
 
+/* The request as request_json_read takes it, but client and sequence. The caller releases it. NULL:
+ * out of memory. */
+json_t *request_to_json(const struct percuss_request *request);
+
 /* The JSON Schema of a request; the caller releases it. */
 json_t *request_schema(void);
 
