@@ -9,13 +9,14 @@
 SI units.
 """
 
+import copy
 import ctypes
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 
-from . import _abi, _convert, _plots, _tables, request
+from . import _abi, _convert, _page, _plots, _tables, request
 from .client import Client
 from .reply import Reply
 from .request import FloatArray, Request
@@ -79,6 +80,8 @@ class Trace:
     """In the order of the request; empty when it was refused."""
     names: tuple[tuple[str, str], ...] = ()
     """Ids of bodies a and b of each contact."""
+    question: Optional[Request] = None
+    """What was asked."""
 
     def to_dataframe(self) -> Any:
         """A row an instant of a contact: contact, and the members of ContactTrace, those of friction where any contact
@@ -97,6 +100,17 @@ class Trace:
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.trace(self, figure)
+
+    def to_html(self, client: Client, title: str = "") -> str:
+        """The page that `percuss query --html` writes: the bodies in motion, force, gap and energy over time, the
+        numbers, the request; about 300 kB, which need no network.
+
+        client: whose catalogue says the shapes of the bodies. ValueError of a refusal, which has no histories."""
+        if self.question is None or not self.contacts:
+            raise ValueError(f"to_html: a trace without histories ({self.reply.status}) has no page")
+        known = client.bodies()
+        bodies = [known.get(one.id) for one in self.question.bodies]
+        return _page.trace(self, bodies, title or " on ".join(self.names[0]))
 
     def _repr_html_(self) -> str:
         rows = [
@@ -124,7 +138,7 @@ def trace(question: Request, client: Client, timeout: float = 10.0) -> Trace:
         client._check(code)
         contacts = tuple(_read(one) for one in histories.contacts[: histories.contact_count])
         names = tuple((question.bodies[one.a].id, question.bodies[one.b].id) for one in question.contacts[: len(contacts)])
-        return Trace(_convert.read(answer, Reply), contacts, names)
+        return Trace(_convert.read(answer, Reply), contacts, names, copy.deepcopy(question))
     finally:
         _library.percuss_trace_free(ctypes.byref(histories))
         _library.percuss_reply_free(ctypes.byref(answer))

@@ -3,7 +3,9 @@
 """percuss.trace: of a daemon and in process, beside what the program writes."""
 
 import dataclasses
+import json
 import unittest
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -46,6 +48,30 @@ class Traces(Beam):
         self.assertAlmostEqual(impulse / said.impulse, 1.0, delta=1e-3)
         self.assertAlmostEqual(contact.force.max() / said.sub_impacts["peak_force"].max(), 1.0, delta=1e-3)
         self.assertAlmostEqual(contact.gap_rate[0], -0.2, delta=1e-12)
+
+    def test_page(self) -> None:
+        """The page has what the program's has: request, reply, bodies, histories; the same but for who asked and when."""
+
+        def data(page: str) -> Any:
+            return json.loads(page.split('id="data">')[1].split("</script>")[0])
+
+        program("query", "--a", "steel-sphere", "--b", "al-beam", "--speed", "0.2", "--html", "impact.html")
+        written = Path("impact.html").read_text(encoding="utf-8")
+        for client in (self.client, self.local):
+            ours = percuss.trace(self.question(), client, timeout=60.0).to_html(client, title="</script>")
+            self.assertEqual(ours.count("</script>"), written.count("</script>"))
+            found, expected = data(ours), data(written)
+            self.assertEqual(found["title"], "</script>")
+            # 17 digits of the one, seven of the other
+            for one in (found, expected):
+                for name in ("client", "sequence", "server", "timing", "states_after"):
+                    del one["reply"][name]
+                one["trace"][0].pop("contact", None)
+            for name in ("request", "bodies", "trace", "reply"):
+                self.assertEqual(found[name], expected[name], name)
+        refused = percuss.trace(percuss.Request(), self.local)
+        with self.assertRaisesRegex(ValueError, "BAD_REQUEST"):
+            refused.to_html(self.local)
 
     def test_friction(self) -> None:
         """The tangential force and the slip of a ball that comes down at 30 degrees: the second blow slides backward."""
