@@ -3,6 +3,7 @@
 
 /* same_body ONE.h5 OTHER.h5 FREQUENCY FLEXIBILITY: whether two files hold the same body,
  * frequencies within the one part and flexibilities within the other of the largest. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,16 @@
 struct difference {
     double frequency, flexibility;
 };
+
+/* How far apart two numbers of 32 bits are, beyond the place where each was rounded; NAN like NAN.
+ */
+static double beyond_rounding(float one, float other)
+{
+    if (isnan(one) != isnan(other))
+        return INFINITY;
+    return isnan(one) ? 0.0
+                      : fmax(0.0, fabs((double)one - (double)other) - FLT_EPSILON * fabs(one));
+}
 
 static void compare_face(const struct mesh_body_face *one, const struct mesh_body_face *other,
                          double *largest, double *apart)
@@ -25,7 +36,7 @@ static void compare_face(const struct mesh_body_face *one, const struct mesh_bod
         *largest = fmax(*largest, fabs(value));
         *apart = fmax(*apart, change);
         for (int k = 0; k < 6; k++)
-            *apart = fmax(*apart, fabs((double)one->tensor[i][k] - (double)other->tensor[i][k]));
+            *apart = fmax(*apart, beyond_rounding(one->tensor[i][k], other->tensor[i][k]));
     }
 }
 
