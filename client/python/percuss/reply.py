@@ -12,7 +12,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _abi, _tables
+from . import _abi, _json, _tables
 from .errors import Refused
 from .request import FloatArray
 from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, FrictionState, Id, Method, Status
@@ -258,6 +258,12 @@ class Reply:
         if self.status not in (Status.OK, Status.TRUNCATED):
             raise Refused(self.status, self.message)
         return self
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that `percuss query --json` prints, which json.dumps makes a text of: to the last digit the same
+        numbers, undefined ones None."""
+        members: dict[str, Any] = _json.write(self)
+        return members
 
     def to_dataframe(self) -> Any:
         """A row a sub-impact that is listed: contact, and the members of SUB_IMPACT, of pairs as NAME_1, NAME_2."""

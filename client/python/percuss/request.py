@@ -9,18 +9,19 @@ and beams along x. Vectors may be given as anything that numpy makes an array of
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from typing import Any, Generic, Optional, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _abi, _convert
+from . import _abi, _convert, _json
 from .vocabulary import (
     MAX_BODIES,
     MAX_CONTACTS,
     MAX_CONTACTS_OBLIQUE,
+    MAX_DELASSUS,
     Choice,
     Compliance,
     ContactModel,
@@ -187,6 +188,18 @@ class Request:
     sequence: int = 0
     """0: the client counts. Set it to repeat a request after a time-out."""
 
+    @classmethod
+    def from_json(cls, source: str | bytes | Mapping[str, Any]) -> Request:
+        """Of a JSON text, or of its object as json.loads gives it, as `percuss query --request` reads it, but without
+        `client`: who asks says it. Raises a ValueError that names the member, its value and what is allowed."""
+        return _of_json(source if isinstance(source, Mapping) else _json.parse(source))
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that json.dumps makes a text of, which from_json and `percuss query --request` read."""
+        matrix, members = _delassus(self), _json.write(self)
+        members["delassus"] = None if matrix is None else matrix.tolist()
+        return {name: one for name, one in members.items() if name not in ("delassus", "sequence") or one}
+
 
 def _fill_bodies(bodies: Sequence[BodyMotion], target: Any) -> None:
     for i, body in enumerate(bodies):
@@ -265,3 +278,43 @@ def read_scene(source: _abi.Request) -> Request:
         [_read_body(body) for body in source.bodies[: source.body_count]],
         [_convert.read(contact, Contact) for contact in source.contacts[: source.contact_count]],
     )
+
+
+def _matrix_of_json(value: Any, n: int) -> FloatArray:
+    """Rows of numbers, or all numbers in one list, of n contacts."""
+    if not _json.is_array(value):
+        _json.fail("delassus", f"an array is needed, not {_json.kind_of(value)}")
+    flat = not (value and _json.is_array(value[0]))
+    if flat and len(value) not in (n * n, 9 * n * n):
+        _json.fail("delassus", f"{n * n} numbers are needed, or {9 * n * n} with both tangents, not {len(value)}")
+    rows = (n if len(value) == n * n else 3 * n) if flat else len(value)
+    if rows not in (n, 3 * n):
+        needed = f"{n} rows are needed, one a contact, or {3 * n} with both tangents"
+        _json.fail("delassus", f"{needed}, not {rows}")
+    if rows * rows > MAX_DELASSUS:
+        many = f"{rows} rows are too many: of normals and tangents up to {MAX_CONTACTS_OBLIQUE} contacts are allowed"
+        _json.fail("delassus", f"{many}, not {n}")
+    if flat:
+        return np.array(_json.read_numbers(value, "delassus", rows * rows)).reshape(rows, rows)
+    return np.array([_json.read_numbers(row, f"delassus[{i}]", rows) for i, row in enumerate(value)])
+
+
+def _of_json(value: Any) -> Request:
+    if not isinstance(value, Mapping):
+        _json.fail("", f"a request is an object, not {_json.kind_of(value)}")
+    if "client" in value:
+        _json.fail("client", "is who asks, not read here: percuss.connect(id=...) and percuss.Local(id=...) take it")
+    _json.check_object(value, "", [field.name for field in fields(Request)])
+    request = Request()
+    for i, one in enumerate(_json.read_array(value.get("bodies", []), "bodies", MAX_BODIES)):
+        request.bodies.append(BodyMotion(""))
+        _json.read_into(request.bodies[i], one, f"bodies[{i}]")
+    for i, one in enumerate(_json.read_array(value.get("contacts", []), "contacts", MAX_CONTACTS)):
+        request.contacts.append(Contact(0, 0))
+        _json.read_into(request.contacts[i], one, f"contacts[{i}]")
+    if "delassus" in value:
+        request.delassus = _matrix_of_json(value["delassus"], len(request.contacts))
+    _json.read_into(request.options, value.get("options", {}), "options")
+    if "sequence" in value:
+        request.sequence = _json.read_whole(value["sequence"], "sequence", 1, 63)
+    return request

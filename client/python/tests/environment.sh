@@ -8,7 +8,7 @@ set -eu
 package=$1/client/python
 venv=$2
 log=$venv.log
-extras="mujoco,dds,plot,pandas,dask,wheel,test"
+extras="mujoco,dds,http,plot,pandas,dask,wheel,test"
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 
 skip() {
