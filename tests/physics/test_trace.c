@@ -158,6 +158,35 @@ static void a_rod_a_wall_and_a_ringing_beam(void **state)
     lab_free(lab);
 }
 
+/* Work of the force shown, by the trapezoidal rule. */
+static double shown_work(const struct trace_contact *contact, size_t count)
+{
+    double sum = 0.0;
+    for (size_t i = 1; i < count; i++)
+        sum += 0.5 * (contact->force[i] + contact->force[i - 1]) *
+               (contact->indentation[i] - contact->indentation[i - 1]);
+    return sum;
+}
+
+/* Where metal yields, the work of the force on the indentation is what the dent has taken. */
+static void dents_take_the_work(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct material soft = ALUMINIUM;
+    soft.yield = 200e6;
+    lab_add(lab, "beam", make_bar(&beam_kind, soft, 0.010, 1.0));
+    struct solve_request request = on_beam(0.25, 1e-6);
+    lab_solve(lab, &request, &result);
+    assert_true(result.energy.plastic > 0.02 * result.energy.available);
+    shows_the_reply(&result);
+    /* the rule's error, of an exchange ten times as large as what stays */
+    measured_relative("work shown", shown_work(&result.trace->contact[0], result.trace->count),
+                      result.energy.plastic, 1e-2);
+    lab_free(lab);
+}
+
 static void other_methods_and_masses_are_told(void **state)
 {
     (void)state;
@@ -453,6 +482,7 @@ int main(void)
         cmocka_unit_test(histories_have_their_bounds),
         cmocka_unit_test(a_beam_shows_all_sub_impacts),
         cmocka_unit_test(a_rod_a_wall_and_a_ringing_beam),
+        cmocka_unit_test(dents_take_the_work),
         cmocka_unit_test(other_methods_and_masses_are_told),
         cmocka_unit_test(several_contacts_share_the_instants),
         cmocka_unit_test(with_friction),

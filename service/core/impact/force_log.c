@@ -30,12 +30,16 @@ static bool grow(struct force_log *log)
 }
 
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],
-                   double (*const indentation)[NODES])
+                   double (*const indentation)[NODES], size_t contacts, const struct track *tracks)
 {
     size_t n = log->rows;
     struct force_step step = {.start = start, .level = level};
     log->complete = log->complete && !(log->most > 0 && log->count == log->most) &&
                     (log->count < log->room || grow(log));
+    if (log->dents && log->complete) {
+        step.deepened = arena_take(log->arena, n, sizeof *step.deepened);
+        log->complete = step.deepened != NULL;
+    }
     if (!log->complete)
         return;
     step.force = log->values;
@@ -45,5 +49,7 @@ void force_log_add(struct force_log *log, double start, int level, double (*cons
         memcpy(step.force[c], force[c], sizeof *force);
         memcpy(step.indentation[c], indentation[c], sizeof *indentation);
     }
+    for (size_t c = 0; log->dents && c < contacts; c++)
+        step.deepened[c] = tracks[c].deepened;
     log->steps[log->count++] = step;
 }

@@ -675,7 +675,8 @@ static void accept(struct modal_run *run, int level)
     if (run->projects || (run->yielding.any && run->march.scene.contacts == 1))
         correct_forces(run, level);
     if (run->settings->log)
-        force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
+        force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation,
+                      run->march.scene.contacts, outcome->tracks);
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
     if (run->march.scene.frictions)
         friction_step_take(&run->step.friction);

@@ -162,8 +162,9 @@ static void sample_friction(const struct tracer *tracer, size_t friction, size_t
     }
 }
 
-/* Records the present instant. */
-static void sample(struct tracer *tracer, const double *force, const double *indentation)
+/* Records the present instant; deepened: growth of each dent since the touch, m. */
+static void sample(struct tracer *tracer, const double *force, const double *indentation,
+                   const double *deepened)
 {
     struct trace *trace = tracer->trace;
     /* steps shorter than the time's rounding show nothing new */
@@ -184,7 +185,7 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
         struct trace_contact *contact = &trace->contact[c];
         /* beyond the instant of release a step's cubic may rise once more */
         contact->force[i] = indentation[c] > 0.0 ? fmax(0.0, force[c]) : 0.0;
-        contact->indentation[i] = fmax(0.0, indentation[c]);
+        contact->indentation[i] = indentation[c] > 0.0 ? indentation[c] + deepened[c] : 0.0;
         contact->gap[i] = tracer->now.gap[c];
         contact->gap_rate[i] = tracer->now.gap_rate[c];
         for (int s = 0; s < 2; s++)
@@ -248,7 +249,7 @@ static bool show_step(struct tracer *tracer, const struct force_step *logged)
         /* the motion under them */
         if (!step(tracer, logged->level + finer, force))
             return false;
-        sample(tracer, end_force, end_indentation);
+        sample(tracer, end_force, end_indentation, logged->deepened);
     }
     return true;
 }
@@ -269,14 +270,14 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     while (end - tracer->now.time > 1.5 * h && tracer->now.time + h > tracer->now.time) {
         if (!step(tracer, level, tracer->silent))
             return false;
-        sample(tracer, tracer->none, tracer->none);
+        sample(tracer, tracer->none, tracer->none, tracer->none);
     }
     /* the rest is shorter than a step */
     double left = end - tracer->now.time;
     for (size_t c = 0; c < scene_rows(tracer->scene); c++)
         tracer->travel[c] += left * tracer->impulse[c];
     motion_advance(&tracer->now, tracer->scene, left);
-    sample(tracer, tracer->none, tracer->none);
+    sample(tracer, tracer->none, tracer->none, tracer->none);
     return true;
 }
 
@@ -301,7 +302,7 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
         return false;
     /* the last instant is always kept */
     tracer->skip = 0;
-    sample(tracer, tracer->none, tracer->none);
+    sample(tracer, tracer->none, tracer->none, tracer->none);
     return true;
 }
 
@@ -325,7 +326,7 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
     motion_start(&tracer.now, task->scene);
     if (task->shift < 0.0)
         motion_rewind(&tracer.now, task->scene, -task->shift);
-    sample(&tracer, tracer.none, tracer.none);
+    sample(&tracer, tracer.none, tracer.none, tracer.none);
     if (follow(&tracer, task->log, task->end) || tracer.left < 0.0)
         return PERCUSS_OK;
     return pace_status(task->pace) ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL;
