@@ -56,6 +56,6 @@ def load(part: str = "", version: bool = True) -> ctypes.CDLL:
             _check_version(library)
         return library
     raise ImportError(
-        f"{name} was not found: install percuss, or set PERCUSS_LIBRARY to the library's path"
-        + "".join(failures)
+        f"{name} was not found: install percuss, or a wheel that has it inside (sh deploy/wheel.sh BUILD FOLDER), or set "
+        "PERCUSS_LIBRARY to libpercuss's path (sh deploy/quickstart.sh builds build/client/libpercuss.so)" + "".join(failures)
     )

@@ -26,3 +26,7 @@ assert percuss.__file__.startswith('$PWD/target'), percuss.__file__
 assert percuss._abi.library._name.startswith('$PWD/prefix/lib'), percuss._abi.library._name
 with percuss.Local() as local:
     assert 'al-beam' in local.bodies()"
+# where no library is, it says how to get one
+! PERCUSS_LIBRARY=$PWD/none.so PYTHONPATH=$PWD/target python -c "import percuss" 2>said
+grep -q "^ImportError: libpercuss.* was not found: .*deploy/wheel.sh.*deploy/quickstart.sh" said
+grep -q "$PWD/none.so: cannot open" said
