@@ -38,7 +38,6 @@ struct force_log force_log_make(struct arena *arena, size_t rows);
 
 /* Copies a step's values. tracks: [contacts], of the present. */
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],
-                   double (*const indentation)[NODES], size_t contacts,
-                   const struct track *tracks);
+                   double (*const indentation)[NODES], size_t contacts, const struct track *tracks);
 
 #endif
