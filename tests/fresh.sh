@@ -4,16 +4,17 @@
 #
 # README followed from nothing: empty Debian 12 roots, each with a clean clone of HEAD, this machine's
 # apt and pip configuration, and nothing else of it. Takes a quarter of an hour and 5 GB for that time.
-# usage: fresh.sh [STAGE...]    (quickstart, tests, packages, systemd, sanitize; default: the first three)
+# usage: fresh.sh [STAGE...]    (quickstart, tests, packages, systemd, sanitize, newcomer; default: the first three;
+# newcomer needs a build in build/)
 # Exit code 77: this machine does not let it, and the reason is said.
 set -eu
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- quickstart tests packages
 for stage; do
     case $stage in
-    quickstart | tests | packages | systemd | sanitize) ;;
+    quickstart | tests | packages | systemd | sanitize | newcomer) ;;
     *)
-        echo "usage: fresh.sh [quickstart|tests|packages|systemd|sanitize]..." >&2
+        echo "usage: fresh.sh [quickstart|tests|packages|systemd|sanitize|newcomer]..." >&2
         exit 2
         ;;
     esac

@@ -39,7 +39,7 @@ static bool load(struct library *library)
     }
     if (handle && library->config_default && library->open && library->error_text)
         return true;
-    complain("--local: %s", dlerror());
+    complain("--local: %s: it comes with the package libpercuss-local" PERCUSS_SOVERSION, dlerror());
     return false;
 }
 

@@ -151,6 +151,25 @@ stage_sanitize() {
     inside sh tests/sanitize.sh address -R '^unit/' || fail "sh tests/sanitize.sh address"
 }
 
+# each way in a root of its own: what one installs, another would find; the table is told line by line
+stage_newcomer() {
+    make_packages
+    sh deploy/wheel.sh build "$work/wheels" >>"$log" 2>&1 || fail "sh deploy/wheel.sh build"
+    echo '| way | installed in | on disk | first own answer after | lines written | answer |'
+    for way in ${PERCUSS_WAYS:-source packages wheel mujoco fmpy gmsh}; do
+        make_root
+        case $way in
+        packages) given=$work/packages ;;
+        wheel) given=$(find "$work/wheels" -name '*.whl') ;;
+        fmpy) given=$(find build/ -name percuss_falling_body.fmu | head -n 1) ;;
+        *) given= ;;
+        esac
+        [ -z "$given" ] || { mkdir "$root/given" && cp -r "$given" "$root/given"; }
+        inside sh tests/fresh/newcomer.sh "$way" ${given:+"/given/${given##*/}"} || fail "newcomer: $way"
+        sed -n 's/^newcomer |/|/p' "$log" | tail -n 1
+    done
+}
+
 [ -z "$(git status --porcelain)" ] || echo "fresh: what is not committed is not tried" >&2
 make_base
 for stage; do
