@@ -74,7 +74,7 @@ says "percuss ensemble: missing: --speed DIST"
 expect 2 "$bin/percuss" query --xyzzy
 ! grep -q "did you mean" "$err" || fail "nothing is like that"
 expect 2 "$bin/percuss" query -a steel-sphere
-says "percuss query: missing: --b ID, --speed V (or a whole request: --request FILE)"
+says "percuss query: missing: --b ID, --speed V or --drop H (or a whole request: --request FILE)"
 expect 2 "$bin/percuss" sweep --speed 0.1:0.4:3
 says "missing: --a ID, --b ID"
 expect 2 "$bin/percuss" calibrate -a steel-sphere -b al-beam
