@@ -26,7 +26,7 @@ sh tests/skipped.sh "$report" || [ "$no_skips" != true ]
 [ "$ci" = true ] || exit 0
 sh tests/clang.sh
 # inputs that a seed gives, so that a change is judged by what it changed; new ones: sh tests/fuzz.sh 60
-PERCUSS_FUZZ_SEED=1 sh tests/fuzz.sh 5
+PERCUSS_FUZZ_SEED=1 PERCUSS_FUZZ_JOBS=$(nproc) sh tests/fuzz.sh 5
 # what this machine does not allow is said, and no failure
 code=0
 sh tests/fresh.sh quickstart packages || code=$?
