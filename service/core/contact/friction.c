@@ -3,6 +3,7 @@
 
 #include "contact/friction.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -433,7 +434,8 @@ EACH_CELL void go_on_slipping(const double *from, const double *x, const double 
 }
 
 /* What is left of the way, by its chord, and the direction of the force. Along a contact's ellipse
- * the slip is not along kappa times the slip: the rest turns the force as a way of its own. */
+ * the slip is not along kappa times the slip: the rest turns the force as a way of its own.
+ * Products below DBL_MIN, as of the forces of a first touch, have no inverse that is a number. */
 EACH_CELL void find_ways(const double kappa[3], const struct walk *walk, struct strip *strip)
 {
     double apart = 0.5 * (kappa[0] - kappa[2]);
@@ -445,7 +447,7 @@ EACH_CELL void find_ways(const double kappa[3], const struct walk *walk, struct 
         double way_y = part * (walk->moved[1] + past * walk->moved[0]);
         double square = x * (kappa[0] * x + kappa[1] * y) + y * (kappa[1] * x + kappa[2] * y);
         double product = square * limit;
-        double over = 1.0 / (product > 0.0 ? product : 1.0);
+        double over = 1.0 / (product > DBL_MIN ? product : 1.0);
         double slipped = (way_x * x + way_y * y - (strip->share[i] - limit) * limit) * limit * over;
         slipped = slipped > 0.0 ? slipped : 0.0;
         strip->way[0][i] = way_x - slipped * (apart * x + kappa[1] * y);
@@ -465,7 +467,7 @@ EACH_CELL void find_ratios(struct strip *strip)
         double size = sqrt(x * x + y * y);
         double limit = 0.5 * (strip->limit[i] + strip->share[i]);
         double product = size * limit;
-        double over = product > 0.0 ? 1.0 / product : 0.0;
+        double over = product > DBL_MIN ? 1.0 / product : 0.0;
         double ratio = size * size * over;
         strip->along[0][i] = x * limit * over;
         strip->along[1][i] = y * limit * over;
@@ -549,6 +551,12 @@ EACH_CELL void take_ends(const struct walk *walk, size_t n, double *x, double *y
         }
 }
 
+/* Not 0: its inverse is a number. */
+static double size_of(const double v[2])
+{
+    return sqrt(larger(v[0] * v[0] + v[1] * v[1], DBL_MIN));
+}
+
 /* A cell that has just begun to touch has no direction yet: that of its way, in two rounds, each of
  * which leaves its part of kappa's anisotropy. */
 static void begin_from_rest(const double kappa[3], const struct walk *walk, size_t i,
@@ -558,7 +566,7 @@ static void begin_from_rest(const double kappa[3], const struct walk *walk, size
     const double way[2] = {stiffness * walk->moved[0], stiffness * walk->moved[1]};
     double turned[2] = {way[0], way[1]};
     for (int round = 0; round < 2; round++) {
-        double over = 1.0 / sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+        double over = 1.0 / size_of(turned);
         double x = turned[0] * over, y = turned[1] * over;
         double slipped = (way[0] * x + way[1] * y - strip->share[i]) /
                          (x * (kappa[0] * x + kappa[1] * y) + y * (kappa[1] * x + kappa[2] * y));
@@ -566,7 +574,7 @@ static void begin_from_rest(const double kappa[3], const struct walk *walk, size
         turned[0] = way[0] - slipped * (apart * x + kappa[1] * y);
         turned[1] = way[1] - slipped * (kappa[1] * x - apart * y);
     }
-    double over = 1.0 / sqrt(turned[0] * turned[0] + turned[1] * turned[1]);
+    double over = 1.0 / size_of(turned);
     for (int j = 0; j < 2; j++) {
         strip->way[j][i] = turned[j];
         strip->at[j][i] = turned[j] * over;

@@ -23,6 +23,25 @@ static struct friction unit_friction(struct contact_law *law, size_t cells, stru
     return friction;
 }
 
+/* A touch may begin by any number: a slip that turns has its limit's size down to the smallest. */
+static void from_the_smallest(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    for (int exponent = 0; exponent > -200; exponent--) {
+        struct contact_law law;
+        struct friction friction = unit_friction(&law, 16, &arena);
+        double d = pow(10.0, exponent), most = pow(1.5 * d, 1.5), force[2];
+        friction_walk(&friction, d, (const double[2]){2.0 * d, d}, force);
+        friction_walk(&friction, 1.5 * d, (const double[2]){2.0 * d, 9.0 * d}, force);
+        /* below it squares of forces are 0, and it sticks */
+        if (exponent > -100)
+            near_relative(hypot(force[0], force[1]), most, 1e-2);
+        assert_true(isfinite(force[0]) && isfinite(force[1]) && isfinite(friction.lost));
+    }
+    arena_release(&arena);
+}
+
 /* At a fixed indentation S = 1 - (1 - U)^1.5, back along twice that curve (Masing), and a full
  * cycle loses its area. */
 static void cycles_of_displacement(void **state)
@@ -320,11 +339,11 @@ static void in_a_groove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_the_slip),  cmocka_unit_test(around_a_circle),
-        cmocka_unit_test(on_curved_ways),    cmocka_unit_test(cycles_of_displacement),
-        cmocka_unit_test(in_proportion),     cmocka_unit_test(ratios_of_ellipses),
-        cmocka_unit_test(spheres_at_angles), cmocka_unit_test(in_two_directions),
-        cmocka_unit_test(in_a_groove),
+        cmocka_unit_test(from_the_smallest),      cmocka_unit_test(against_the_slip),
+        cmocka_unit_test(around_a_circle),        cmocka_unit_test(on_curved_ways),
+        cmocka_unit_test(cycles_of_displacement), cmocka_unit_test(in_proportion),
+        cmocka_unit_test(ratios_of_ellipses),     cmocka_unit_test(spheres_at_angles),
+        cmocka_unit_test(in_two_directions),      cmocka_unit_test(in_a_groove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
