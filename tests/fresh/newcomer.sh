@@ -5,7 +5,7 @@
 # A newcomer's first answer about a part of their own, on an empty Debian 12: a brass ball of 16 mm hits a steel arm at
 # 0.3 m/s; with percuss, and with what a newcomer would take instead, as each one's own pages say. Run by stages.sh inside an
 # empty root.
-# usage: newcomer.sh WAY    (source, packages FOLDER, wheel FILE; mujoco, fmpy FMU, gmsh)
+# usage: newcomer.sh WAY    (source, packages FOLDER, wheel FILE; mujoco, fmpy FOLDER, gmsh)
 set -eu
 cd "$(dirname "$0")/../.."
 . tests/documents.sh
@@ -102,8 +102,9 @@ END
     (cd "$work/own" && "$work/venv/bin/python" ask.py)
 }
 
-# a player of models that others have made: an FMU is given
+# a player of models that others have made: here percuss' own
 install_fmpy() {
+    packages "$given"/percuss-fmu_*.deb "$given"/libpercuss-local1_*.deb
     python_packages fmpy
 }
 answer_fmpy() {
@@ -115,7 +116,7 @@ import fmpy
 result = fmpy.simulate_fmu(sys.argv[1], stop_time=0.5)
 print({name: float(result[name][-1]) for name in result.dtype.names[:3]})
 END
-    "$work/venv/bin/python" "$work/own/ask.py" "$given"
+    "$work/venv/bin/python" "$work/own/ask.py" /usr/lib/*/percuss/percuss_falling_body.fmu
 }
 
 # makes meshes, which is as far as it goes; a finite element program would go on from there

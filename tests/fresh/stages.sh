@@ -151,7 +151,7 @@ stage_sanitize() {
     inside sh tests/sanitize.sh address -R '^unit/' || fail "sh tests/sanitize.sh address"
 }
 
-# each way in a root of its own: what one installs, another would find; the table is told line by line
+# PERCUSS_WAYS: which; each in a root of its own, as what one installs another would find. Printed line by line
 stage_newcomer() {
     make_packages
     sh deploy/wheel.sh build "$work/wheels" >>"$log" 2>&1 || fail "sh deploy/wheel.sh build"
@@ -159,9 +159,8 @@ stage_newcomer() {
     for way in ${PERCUSS_WAYS:-source packages wheel mujoco fmpy gmsh}; do
         make_root
         case $way in
-        packages) given=$work/packages ;;
+        packages | fmpy) given=$work/packages ;;
         wheel) given=$(find "$work/wheels" -name '*.whl') ;;
-        fmpy) given=$(find build/ -name percuss_falling_body.fmu | head -n 1) ;;
         *) given= ;;
         esac
         [ -z "$given" ] || { mkdir "$root/given" && cp -r "$given" "$root/given"; }
