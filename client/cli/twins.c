@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include "column.h"
 #include "waiting.h"
 
 int twins_open(struct twins *twins, const struct common *common, const struct scene *scene)
@@ -82,11 +83,28 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
     return twins_code(twins, twin_ask(&twins->question, set, changes, &listener, list));
 }
 
+/* What the motion tells may be no restitution at all: a unit, a scale or a rate is wrong. */
+static int twins_check(const struct measured_set *set)
+{
+    const struct column_kind *kind = &IMPACT_KINDS[IMPACT_RESTITUTION];
+    for (size_t i = 0; i < set->count; i++) {
+        double e = set->impacts[i].restitution;
+        if (!(e < kind->low) && !(e > kind->high))
+            continue;
+        complain(
+            "impact %zu: its restitution would be %g: must be %g to %g: are its units, --scale, "
+            "--rate and --gravity right, and are all readings there?",
+            i + 1, e, kind->low, kind->high);
+        return EXIT_USAGE;
+    }
+    return EXIT_ANSWERED;
+}
+
 int twins_complete(const struct twins *twins, struct measured_set *set, const struct twin *list)
 {
     size_t done = twin_complete(&twins->question, set, list);
     if (done == set->count)
-        return EXIT_ANSWERED;
+        return twins_check(set);
     const bool of_b = set->impacts[done].momentum_of_b == 1.0;
     complain("impact %zu: the motion of %s does not tell the impulse, because it vibrates%s",
              done + 1, of_b ? twins->scene->b : twins->scene->a,

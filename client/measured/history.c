@@ -104,6 +104,9 @@ static bool take_reading(struct table *table, size_t row, const struct choice *c
         /* readings are counted where nothing says their times */
         if (i == 0 && !table_has(table, HISTORY_TIME)) {
             *value = (double)row / rate_of(table);
+            if (row > 0 && table->numbers[row] != table->numbers[row - 1] + 1)
+                remarks_wrong(remarks, "%s:%zu: a line before has no reading: must be nan there",
+                              text_name(table->layout.source->file), table->numbers[row]);
             continue;
         }
         whole = table_number(table, row, choice->column[i], value, remarks) && whole;
@@ -575,20 +578,20 @@ static bool guess_acceleration(const struct search *search, double *acceleration
  * cent from place to place. */
 static const double GRAVITY_SHARE = 0.02;
 
-/* The stated gravity instead of the fitted acceleration. False with the reason if that is another
- * one: a scale or a rate is wrong, or the body does not fall freely. */
+/* The stated gravity instead of the fitted acceleration, if one stands out of noise. False with the
+ * reason if that is another one: a scale or a rate is wrong, or the body does not fall freely. */
 static bool state_gravity(struct search *search, double *acceleration, struct measured_fault *fault)
 {
     const double stated = search->history->gravity, found = fabs(*acceleration);
     const double allowed = fmax(ACCELERATED * search->deviation, GRAVITY_SHARE * stated);
-    if (fabs(found - stated) > allowed)
+    if (found > 0.0 && fabs(found - stated) > allowed)
         return measured_fail(fault,
                              "%s: between contacts it changes its velocity by %.4g m/s^2, where "
                              "gravity is %.4g m/s^2: are its unit, --scale and --rate right?",
                              search->history->displacement_a ? "displacement" : "velocity", found,
                              stated);
-    *acceleration = copysign(stated, *acceleration);
-    search->deviation = 0.0;
+    *acceleration = found > 0.0 ? copysign(stated, *acceleration) : 0.0;
+    search->deviation = found > 0.0 ? 0.0 : search->deviation;
     return true;
 }
 

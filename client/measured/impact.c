@@ -278,8 +278,8 @@ static bool read_row(struct table *table, size_t row, struct measured_impact *im
     for (size_t k = 0; k < IMPACT_HISTORY; k++)
         good =
             table_number(table, row, k, (double *)((char *)impact + OFFSETS[k]), remarks) && good;
-    good = good && take_v_out(table, row, impact, remarks) &&
-           take_heights(table, row, impact, remarks);
+    good = good && take_heights(table, row, impact, remarks) &&
+           take_v_out(table, row, impact, remarks);
     if (good)
         impact->doubt = doubt_of(table, impact);
     /* the numbers that its history adds */
@@ -627,5 +627,5 @@ void measured_complete(struct measured_impact *impact, double mass, double w)
 
 double measured_half_width(const struct measured_impact *impact)
 {
-    return (1.0 + impact->restitution) * impact->doubt;
+    return fabs(1.0 + impact->restitution) * impact->doubt;
 }

@@ -427,6 +427,16 @@ static void refuses_bad_files(void **state)
                  i == 20 ? "x" : "1");
     refuse(text, 2, "bad.csv:11: time: 3: must be later than the line before");
     refuse(text, 2, "bad.csv:22: velocity_a: 'x': must be a finite number");
+    /* readings that are counted, with a line between them that is blank */
+    static struct measured_remarks remarks;
+    struct column_map counted = {.rate = 240.0};
+    struct history history;
+    strcpy(text, "velocity_a\n");
+    for (int i = 0; i < 40; i++)
+        strcat(text, i == 20 ? "\n1\n" : "1\n");
+    assert_false(history_read(files_text("bad.csv", text), &counted, &history, &remarks));
+    assert_true(files_say(remarks.error, remarks.errors,
+                          "bad.csv:23: a line before has no reading: must be nan there"));
     /* more gaps than readings tell */
     strcpy(text, "time,velocity_a\n");
     for (int i = 0; i < 40; i++)
