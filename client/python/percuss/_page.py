@@ -7,17 +7,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from . import _abi
-from .vocabulary import Choice, EndReason, FrictionState, Id, Parameter, Status
+from . import _abi, _json
+from .vocabulary import Parameter
 
 if TYPE_CHECKING:
-    from .request import Request
     from .server import Body
     from .traces import Trace
 
@@ -33,52 +30,12 @@ def _template() -> str:
     raise FileNotFoundError(f"the page impact.html was not found: {', '.join(map(str, places))}")
 
 
-def _name(choice: Choice) -> str:
-    """As the command line prints it in JSON."""
-    return choice.name if isinstance(choice, (Status, EndReason)) else choice.text
-
-
-def _plain(value: Any) -> Any:
-    """As json takes it, with the names that `percuss --json` has; undefined and infinite numbers are null."""
-    if is_dataclass(value):
-        return {one.name: _plain(getattr(value, one.name)) for one in fields(value)}
-    if isinstance(value, Choice):
-        return _name(value)
-    if isinstance(value, Id):
-        return str(value)
-    if isinstance(value, np.ndarray):
-        return [_plain(one) for one in value]
-    if isinstance(value, np.void):
-        row = {name: value[name] for name in value.dtype.names or ()}
-        if "friction_state" in row:
-            row["friction_state"] = FrictionState(row["friction_state"])
-        return {name: _plain(one) for name, one in row.items()}
-    if isinstance(value, np.generic):
-        return _plain(value.item())
-    if isinstance(value, dict):
-        return {_plain(key): _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _request(question: "Request") -> Any:
-    plain = _plain(question)
-    del plain["sequence"]
-    if question.delassus is None:
-        del plain["delassus"]
-    else:
-        plain["delassus"] = _plain(np.asarray(question.delassus, dtype=np.float64))
-    return plain
-
-
 def _body(body: "Body | None") -> Any:
     if body is None:
         return None
-    plain = _plain(body)
-    parameters = {one.text: body.parameters.get(one) for one in Parameter if one != Parameter.RADIUS}
-    del plain["parameters"]
-    return {**plain, **_plain(parameters)}
+    members = _json.write(body)
+    parameters = members.pop("parameters")
+    return {**members, **{one.text: parameters.get(one.text) for one in Parameter if one != Parameter.RADIUS}}
 
 
 def _histories(trace: Any) -> Any:
@@ -96,8 +53,8 @@ def trace(traced: "Trace", bodies: Sequence["Body | None"], title: str) -> str:
     assert traced.question is not None
     data = {
         "title": title,
-        "request": _request(traced.question),
-        "reply": _plain(traced.reply),
+        "request": traced.question.to_json(),
+        "reply": traced.reply.to_json(),
         "bodies": [_body(body) for body in bodies],
         "trace": [_histories(contact) for contact in traced.contacts],
     }
