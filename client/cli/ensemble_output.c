@@ -258,7 +258,7 @@ static void print_distribution(const struct percuss_ensemble_reply *reply)
 /* Between which quantiles most of them lie: the outermost ones. */
 static void summarize_restitution(const struct percuss_statistic *e)
 {
-    printf("  restitution  %.4f, 95 %% confidence %s\n", e->mean,
+    printf("  restitution  mean %.4f, 95 %% confidence %s\n", e->mean,
            bounds_of(e->mean_low, e->mean_high).text);
     printf("  spread       deviation %.4f, from %.4f to %.4f", e->standard_deviation, e->lowest,
            e->highest);

@@ -315,15 +315,28 @@ static int sweep_refuse(const struct reading *reading, const char *what)
     return EXIT_USAGE;
 }
 
+/* An older percuss has left off the last columns. */
+static int sweep_refuse_older(const struct reading *reading, const char *head)
+{
+    complain("--resume: %s: has no column %s: an older percuss began it: begin another file",
+             reading->name, head + strlen(reading->line) + 1);
+    return EXIT_USAGE;
+}
+
 static int read_rows(struct reading *reading, struct sweep_curve *curves)
 {
     char *head = line_of(reading->points, 0, 0, true);
     if (!head)
         return complain_memory();
-    bool empty = !next_line(reading), good = empty || strcmp(head, reading->line) == 0;
+    bool empty = !next_line(reading);
+    size_t length = empty ? 0 : strlen(reading->line);
+    int code = empty || strcmp(head, reading->line) == 0 ? EXIT_ANSWERED
+               : strncmp(head, reading->line, length) == 0 && head[length] == ','
+                   ? sweep_refuse_older(reading, head)
+                   : sweep_refuse(reading, "is not the first line of this sweep");
     free(head);
-    if (!good)
-        return sweep_refuse(reading, "is not the first line of this sweep");
+    if (code != EXIT_ANSWERED)
+        return code;
     /* curve by curve, speed by speed, as they are asked for */
     for (size_t k = 0; !empty && k < reading->points->curve_count; k++)
         for (unsigned i = 0; i < reading->points->count; i++) {
