@@ -31,7 +31,8 @@ const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1", PLAIN},
     [IMPACT_V_OUT] = {"v_out", false, false, QUANTITY_SPEED, 0.0, 1e6,
                       "m/s >= 0, at which the bodies separate", PLAIN},
-    [IMPACT_DROP] = {"drop", false, false, QUANTITY_LENGTH, 1e-9, 1e6, "m > 0, of the fall", 1000.0,
+    /* rigs of a laboratory stand below its ceiling */
+    [IMPACT_DROP] = {"drop", false, false, QUANTITY_LENGTH, 1e-9, 1e6, "m > 0, of the fall", 20.0,
                      "is a unit missing, such as mm?"},
     [IMPACT_REBOUND] = {"rebound", false, false, QUANTITY_LENGTH, 0.0, 1e6,
                         "m >= 0, to which A rises", PLAIN},

@@ -185,13 +185,15 @@ static size_t heading_matches(const struct table_source *source, const struct ce
 }
 
 /* By which a number in that unit, as column_number reads it, is in SI units; 0: that of pixels or
- * frames, which nobody said. Lengths without a unit are pixels where there is a scale for them. */
+ * frames, which nobody said. A history's lengths without a unit are pixels where there is a scale
+ * for them; heights are measured by other means. */
 static double factor_of(const struct table_source *source, size_t kind, const char *unit)
 {
     const struct column_map *map = source->map;
     const double scale = map ? map->scale : 0.0, rate = map ? map->rate : 0.0;
     const bool is_length = source->kinds[kind].quantity == QUANTITY_LENGTH;
-    if (is_length && (!strcmp(unit, COLUMN_PIXEL) || (!*unit && scale > 0.0)))
+    const bool pictured = source->kinds == HISTORY_KINDS && scale > 0.0;
+    if (is_length && (!strcmp(unit, COLUMN_PIXEL) || (!*unit && pictured)))
         return scale;
     return strcmp(unit, COLUMN_FRAME) != 0 ? 1.0 : rate > 0.0 ? 1.0 / rate : 0.0;
 }

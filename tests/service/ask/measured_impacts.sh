@@ -89,6 +89,9 @@ rig microphone 7 steel-wall --uncertainty bounce=0.04ms --uncertainty drop=0.1mm
 rig accelerometers 1 steel-wall
 rig targets 1 steel-sphere
 expect 0 percuss compare "$data/synthetic-heights.csv" --a steel-sphere --b steel-wall --json
+cp "$out" "$work/heights.json"
+expect 0 percuss compare "$data/synthetic-heights.csv" --a steel-sphere --b steel-wall --json --scale 0.12mm
+cmp "$out" "$work/heights.json" || fail "heights are taken for pixels"
 [ "$(grep -c '"restitution_half_width": null' "$out")" -eq 5 ] || fail "an interval of which nothing is known"
 
 say "and what does not fit is refused with what it would be"
