@@ -13,11 +13,11 @@ liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom1
 libmumps-seq-dev libhdf5-dev libssl-dev libjs-dygraphs"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind openssl iproute2 mount gmsh calculix-ccx
 python3-prometheus-client libudunits2-dev python3-jsonschema python3-yaml zsh fish
-python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils
+python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils chromium
 dwarves doxygen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
-ci="clang clang-tidy libclang-rt-14-dev mmdebstrap lintian chromium"
+ci="clang clang-tidy libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in
 build) packages=$build ;;

@@ -5,7 +5,7 @@
 # stops, is slowed and dragged. What it draws is the solver's.
 . "$(dirname "$0")/../support/lib.sh"
 command -v chromium >/dev/null || {
-    echo "chromium is not installed (sh deploy/dependencies.sh ci): skipped"
+    echo "chromium is not installed (sh deploy/dependencies.sh test): skipped"
     exit 77
 }
 pair="--local --a steel-sphere --b al-beam --speed 0.276"
