@@ -177,10 +177,13 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
         pthread_mutex_unlock(&client->lock);
         bool go_on = watcher->function(watcher->context, &progress);
         pthread_mutex_lock(&client->lock);
-        /* cancelled: the reply still comes, of the samples solved by then */
-        if (!go_on && !cancelled)
+        /* cancelled: the reply still comes, of the samples solved by then. One look at the answer:
+         * a function in Python that ends by an exception leaves any byte in its place, of which two
+         * looks could differ */
+        if (!go_on && !cancelled) {
             send_cancel(client, pending->sequence);
-        cancelled = cancelled || !go_on;
+            cancelled = true;
+        }
     }
     if (pending->result == PERCUSS_RESULT_OK)
         tell_last(client, &pending->ensemble->reply, watcher, progress.done);

@@ -30,6 +30,7 @@ def long_question(client: percuss.Client) -> percuss.Request:
 def long_ensemble(client: percuss.Client) -> percuss.Ensemble:
     bodies = client.bodies()
     scene = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], speed=0.3)
+    scene.options.method = percuss.Method.CVODE  # hours, all samples together
     speed = percuss.Input("speed", percuss.Distribution.UNIFORM, 0.1, 0.4)
     return percuss.Ensemble(scene, [speed], samples=1_000_000)
 
