@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Every CPython that is found, on the PATH and of pyenv: pip installs the package into an empty environment with the
-# oldest numpy that is allowed, then with the newest, and the tests that need nothing else pass; a Python that is too
-# old is refused by pip. Started by run.sh.
+# newest numpy, the first Python that is allowed also with the oldest one, and the tests that need nothing else pass;
+# a Python that is too old is refused by pip. Started by run.sh.
 set -eu
 package=$PERCUSS_SOURCE/client/python
 export PIP_DISABLE_PIP_VERSION_CHECK=1
@@ -107,7 +107,7 @@ while read -r minor python; do
         continue
     fi
     old=$(oldest "$minor")
-    if [ "$old" ]; then
+    if [ "$count" -eq 0 ] && [ "$old" ]; then
         install "numpy ==$old"
         answered traces
     fi
