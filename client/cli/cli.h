@@ -62,11 +62,11 @@ extern const struct argp common_argp;
  * Returns an exit code. */
 typedef int command_function(int argc, char **argv, struct common *common);
 command_function command_query, command_sweep, command_ensemble, command_bodies, command_status,
-    command_ping, command_compare, command_calibrate, command_dents, command_schema, command_doctor,
-    command_complete;
+    command_ping, command_compare, command_calibrate, command_export, command_dents, command_schema,
+    command_doctor, command_complete;
 /* The options of each. */
 extern const struct argp query_argp, sweep_argp, ensemble_argp, bodies_argp, status_argp, ping_argp,
-    compare_argp, calibrate_argp, dents_argp, schema_argp, doctor_argp;
+    compare_argp, calibrate_argp, export_argp, dents_argp, schema_argp, doctor_argp;
 
 /* Parses a command line that has no options of its own. */
 void parse_only_common(int argc, char **argv, const char *doc, struct common *common);

@@ -16,6 +16,8 @@ const struct command COMMANDS[] = {
     {"compare", command_compare, &compare_argp, "measured impacts beside their simulated twins"},
     {"calibrate", command_calibrate, &calibrate_argp,
      "parameters of the bodies from measured impacts"},
+    {"export", command_export, &export_argp,
+     "the restitution of a pair as parameters of another simulator"},
     {"bodies", command_bodies, &bodies_argp, "the bodies that the server knows"},
     {"dents", command_dents, &dents_argp, "the specimens that the server keeps, with their dents"},
     {"status", command_status, &status_argp, "what the server is doing"},

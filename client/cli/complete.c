@@ -11,6 +11,7 @@
 #include "column.h"
 #include "complete_line.h"
 #include "domains.h"
+#include "engine_text.h"
 
 /* The values of an option. */
 
@@ -32,6 +33,7 @@ static const struct {
     {"compliance", percuss_compliance_name, PERCUSS_COMPLIANCE_COUNT},
     {"friction-law", percuss_friction_name, PERCUSS_FRICTION_COUNT},
     {"sampling", percuss_sampling_name, PERCUSS_SAMPLING_COUNT},
+    {"for", engine_name, ENGINE_COUNT},
 };
 
 /* A client that is connected; NULL: none is at once. */

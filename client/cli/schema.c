@@ -260,6 +260,36 @@ static json_t *calibrate_schema(void)
     return OBJECT(members);
 }
 
+static json_t *export_point_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("speed", "number", "m/s"),
+        VALUE("restitution", "number", ""),
+        VALUE("error_total", "number", "of the restitution, by time steps, modes and models"),
+        VALUE("duration", "number", "of the sub-impact with the largest impulse, s"),
+        VALUE("model", "number", "the other simulator's restitution"),
+    };
+    return OBJECT(members);
+}
+
+static json_t *export_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("for", "string", "the other simulator"),
+        LIST("points", "one a speed", export_point_schema),
+        VALUE("worst", "number", "largest difference of the restitutions"),
+        VALUE("mass", "number", "effective, of the pair, kg"),
+        VALUE("duration", "number", "of the contact in the other simulator, s"),
+        VALUE("step", "number", "of its time, at most, s"),
+        VALUE("restitution", "number", "at all speeds; null: it depends on the speed"),
+        VALUE("stiffness", "number", "of the pair, N/m"),
+        VALUE("damping", "number", "of the pair, N s/m; null: by the dissipation"),
+        VALUE("dissipation", "number", "of Hunt and Crossley, s/m; null: by the damping"),
+        WARNINGS,
+    };
+    return OBJECT(members);
+}
+
 static json_t *site_schema(void)
 {
     static const struct member members[] = {
@@ -406,14 +436,16 @@ struct kind {
 };
 
 static const struct kind kinds[] = {
-    {"request", request_schema}, {"reply", reply_schema},         {"ensemble", ensemble_schema},
-    {"sweep", sweep_schema},     {"compare", compare_schema},     {"calibrate", calibrate_schema},
-    {"bodies", bodies_schema},   {"remarks", remarks_schema},     {"dents", dents_schema},
-    {"status", status_schema},   {"ping", ping_schema},           {"doctor", doctor_schema},
-    {"query", query_schema},     {"catalogue", catalogue_schema}, {"settings", settings_schema},
+    {"request", request_schema},   {"reply", reply_schema},     {"ensemble", ensemble_schema},
+    {"sweep", sweep_schema},       {"compare", compare_schema}, {"calibrate", calibrate_schema},
+    {"bodies", bodies_schema},     {"remarks", remarks_schema}, {"dents", dents_schema},
+    {"status", status_schema},     {"ping", ping_schema},       {"doctor", doctor_schema},
+    {"export", export_schema},     {"query", query_schema},     {"catalogue", catalogue_schema},
+    {"settings", settings_schema},
 };
 #define KIND_NAMES                                                                                 \
-    "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping, "  \
+    "request, reply, ensemble, sweep, compare, calibrate, export, bodies, remarks, dents, "        \
+    "status, ping, "                                                                               \
     "doctor, query, catalogue, settings"
 
 struct choice {
@@ -448,8 +480,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp schema_argp = {
     .parser = parse,
-    .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping|"
-                "doctor|query|catalogue|settings",
+    .args_doc =
+        "request|reply|ensemble|sweep|compare|calibrate|export|bodies|remarks|dents|status|ping|"
+        "doctor|query|catalogue|settings",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
            "that 'query --json' prints (query: of several), of what another command prints with "
            "--json, or of the remarks of "

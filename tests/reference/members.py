@@ -13,6 +13,7 @@ KINDS = [
     ("sweep", "A sweep", "what `percuss sweep --json` prints"),
     ("compare", "A comparison", "what `percuss compare --json` prints"),
     ("calibrate", "A calibration", "what `percuss calibrate --json` prints"),
+    ("export", "Parameters of another simulator", "what `percuss export --json` prints"),
     ("bodies", "The server's bodies", "what `percuss bodies --json` prints"),
     ("remarks", "Remarks on them", "what `percuss bodies --check --json` prints"),
     ("dents", "Specimens", "what `percuss dents --json` prints"),

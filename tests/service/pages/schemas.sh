@@ -8,7 +8,7 @@ python3 -c 'import jsonschema, yaml' 2>/dev/null || {
     echo "python3-jsonschema or python3-yaml is not there: skipped"
     exit 77
 }
-for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping doctor query catalogue settings; do
+for kind in request reply ensemble sweep compare calibrate export bodies remarks dents status ping doctor query catalogue settings; do
     "$bin/percuss" schema "$kind" >"$work/$kind.schema"
 done
 
@@ -116,6 +116,7 @@ printed sweep 0 sweep --a steel-sphere --b al-rod --b al-beam --speed 0.1:0.3:2
 printed compare 0 compare "$source_dir/client/examples/measured/synthetic-beam.csv" --a steel-sphere --b al-beam
 printed calibrate 0 calibrate "$source_dir/client/examples/measured/synthetic-beam.csv" --a steel-sphere --b al-beam \
     --fit young:al-beam
+printed export 0 export --for drake --a steel-sphere --b al-rod-1 --speed 0.1:0.3:3
 printed bodies 0 bodies
 printed remarks 0 bodies --check
 printed dents 0 dents

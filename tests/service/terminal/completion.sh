@@ -58,7 +58,7 @@ for ask in "in_bash percuss" "in_zsh percuss"; do
     offers sweep
     offers_not query
     $ask ""
-    [ "$(grep -c . "$out")" -eq 12 ] || fail "not all commands"
+    [ "$(grep -c . "$out")" -eq 13 ] || fail "not all commands"
     $ask help q
     offers query
 done
