@@ -7,7 +7,7 @@
 
 #include <percuss/percuss.h>
 
-#include "history.h"
+#include "history_motion.h"
 #include "plot.h"
 
 /* One answer, with histories. */

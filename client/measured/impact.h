@@ -5,7 +5,7 @@
 #ifndef PERCUSS_MEASURED_IMPACT_H
 #define PERCUSS_MEASURED_IMPACT_H
 
-#include "history.h"
+#include "history_impacts.h"
 
 struct measured_impact {
     double speed; /* of approach */

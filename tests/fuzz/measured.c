@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "fuzz.h"
+#include "history_motion.h"
 #include "impact.h"
 
 static struct measured_remarks remarks;

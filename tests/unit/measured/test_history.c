@@ -4,6 +4,7 @@
 /* Tests client/measured/history.c: sub-impacts of known start,
  * length and jump are found again in noisy readings, and bad files are refused by line. */
 #include "files.h"
+#include "history_motion.h"
 #include "impact.h"
 #include "random.h"
 
