@@ -165,6 +165,7 @@ static void latch(struct percuss_slow *slow, const struct group *group,
         return;
     const struct percuss_reply *reply = group->reply;
     pair->latch = LATCH_PLAYING;
+    pair->touch = episode->time;
     pair->until = pair->over = episode->time + episode->window;
     if (!reply || !reply->complete)
         return;
@@ -200,32 +201,6 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     episode->next = slow->episodes;
     slow->episodes = episode;
     return PERCUSS_RESULT_OK;
-}
-
-/* A movement along the normal and by a vector along the surface, world, in the directions of a
- * contact. */
-static void split_moment(const struct percuss_slow_contact *contact, double normal,
-                         const double along[3], double moment[3])
-{
-    double tangent[2][3];
-    percuss_slow_tangents(contact, tangent[0], tangent[1]);
-    moment[0] = normal;
-    for (int t = 0; t < 2; t++)
-        moment[1 + t] =
-            along[0] * tangent[t][0] + along[1] * tangent[t][1] + along[2] * tangent[t][2];
-}
-
-/* Gaps after a movement by an impulse of the episode, of all its pairs that are still near. */
-static void move_gaps(const struct percuss_slow *slow, const struct episode *episode,
-                      size_t contact, const double moment[3])
-{
-    size_t n = episode->request.contact_count;
-    for (size_t i = 0; i < n; i++) {
-        struct pair *pair = pairs_find(slow, &episode->contacts[i]);
-        if (pair)
-            pair->contact.gap +=
-                slow_gap_change(episode->delassus, episode->oblique, n, i, contact, moment);
-    }
 }
 
 /* The tangential impulse of an entry as it is on a of the contact by now, whose normal may have
@@ -311,7 +286,31 @@ static struct blow blow_make(const struct percuss_slow *slow, const struct episo
     return blow;
 }
 
-static enum percuss_result kick(const struct percuss_slow *slow, const struct blow *blow)
+/* Whether the bodies have to be set to where the impulse at its own time would have had them. */
+static bool is_displaced(const struct percuss_slow *slow, const struct blow *blow)
+{
+    return slow_moves(slow) && fabs(blow->late) > SLOW_INSTANT;
+}
+
+/* The gap rates of the pairs seen, in their order; NULL: *result says why. */
+static struct group *look_at_pairs(const struct percuss_slow *slow, enum percuss_result *result)
+{
+    struct group *group = group_create(slow, slow->pair_count);
+    *result = group ? PERCUSS_RESULT_OK : slow_no_memory();
+    if (!group)
+        return NULL;
+    group->count = 0;
+    for (size_t i = 0; i < slow->pair_count; i++)
+        if (slow->pairs[i].seen)
+            group->contacts[group->count++] = slow->pairs[i].contact;
+    *result = group_probe(slow, group, false);
+    if (!*result)
+        return group;
+    group_free(group);
+    return NULL;
+}
+
+static enum percuss_result push(const struct percuss_slow *slow, const struct blow *blow)
 {
     const struct percuss_slow_engine *engine = &slow->config.engine;
     if (change_velocities(engine, &blow->place, blow->impulse, blow->tangential, blow->slides))
@@ -323,22 +322,39 @@ static enum percuss_result kick(const struct percuss_slow *slow, const struct bl
                                   : "apply");
 }
 
-/* Moves the bodies to where the impulse at its own time would have had them. */
-static enum percuss_result shift(const struct percuss_slow *slow, const struct episode *episode,
-                                 const struct entry *entry, const struct blow *blow)
+/* Changes the velocities, and the gaps of all pairs that this opens or closes by as long as it is
+ * late: what `shift` does to the bodies. */
+static enum percuss_result kick(const struct percuss_slow *slow, const struct blow *blow)
 {
-    if (!slow_moves(slow) || fabs(blow->late) <= SLOW_INSTANT)
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    if (!is_displaced(slow, blow))
+        return push(slow, blow);
+    struct group *before = look_at_pairs(slow, &result), *after = NULL;
+    if (!result)
+        result = push(slow, blow);
+    if (!result)
+        after = look_at_pairs(slow, &result);
+    size_t next = 0;
+    for (size_t i = 0; !result && i < slow->pair_count; i++) {
+        if (!slow->pairs[i].seen)
+            continue;
+        double change = after->gap_rate[next] - before->gap_rate[next];
+        slow->pairs[i].contact.gap += blow->late * change;
+        next++;
+    }
+    group_free(before);
+    group_free(after);
+    return result;
+}
+
+/* Moves the bodies to where the impulse at its own time would have had them. */
+static enum percuss_result shift(const struct percuss_slow *slow, const struct blow *blow)
+{
+    double moment = blow->impulse * blow->late;
+    if (!is_displaced(slow, blow) || change_positions(&slow->config, &blow->place, moment,
+                                                      blow->tangential, blow->late, blow->slides))
         return PERCUSS_RESULT_OK;
-    double moment = blow->impulse * blow->late, along[3], moved[3];
-    double late = slow->config.move_vector ? blow->factor * blow->late : 0.0;
-    for (int i = 0; i < 3; i++)
-        along[i] = late * entry->tangential[i];
-    split_moment(&episode->contacts[entry->contact], moment, along, moved);
-    if (!change_positions(&slow->config, &blow->place, moment, blow->tangential, blow->late,
-                          blow->slides))
-        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
-    move_gaps(slow, episode, entry->contact, moved);
-    return PERCUSS_RESULT_OK;
+    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
 }
 
 /* Applies `factor`, 1 or -1, times an entry's impulse as if it had been at the entry's time. */
@@ -347,7 +363,7 @@ static enum percuss_result apply(const struct percuss_slow *slow, const struct e
 {
     struct blow blow = blow_make(slow, episode, entry, factor, now);
     enum percuss_result result = kick(slow, &blow);
-    return result ? result : shift(slow, episode, entry, &blow);
+    return result ? result : shift(slow, &blow);
 }
 
 /* With friction: all impulses that have come to be applied, while the point of contact lies where
@@ -365,7 +381,7 @@ static enum percuss_result play_rubbing(const struct percuss_slow *slow, struct 
     }
     for (size_t i = first; !result && i < episode->played; i++) {
         struct blow blow = blow_make(slow, episode, &episode->entries[i], 1.0, now);
-        result = shift(slow, episode, &episode->entries[i], &blow);
+        result = shift(slow, &blow);
     }
     return result;
 }
@@ -384,19 +400,21 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
             result = apply(slow, episode, entry, 1.0, now);
             ++*applied;
         }
-        if (episode->played == episode->entry_count && now >= episode->time + episode->window)
+        /* a touch within this step may still lie in its window */
+        if (episode->played == episode->entry_count &&
+            slow->time >= episode->time + episode->window)
             forget(slow, episode);
     }
     return result;
 }
 
 struct episode *episode_of(const struct percuss_slow *slow,
-                           const struct percuss_slow_contact *contact, double now)
+                           const struct percuss_slow_contact *contact, double time)
 {
     for (struct episode *episode = slow->episodes; episode; episode = episode->next)
         for (size_t i = 0; i < episode->request.contact_count; i++) {
             const struct percuss_slow_contact *own = &episode->contacts[i];
-            if (episode->revocable && !episode->revoked && now < episode->time + episode->window &&
+            if (episode->revocable && !episode->revoked && time < episode->time + episode->window &&
                 pairs_is_same(own, contact))
                 return episode;
         }
@@ -445,6 +463,19 @@ static enum percuss_result take_vibration(struct percuss_slow *slow, struct epis
     }
     slow->config.service.release(&reply);
     return result ? question_fail(slow, group, result) : result;
+}
+
+/* A movement along the normal and by a vector along the surface, world, in the directions of a
+ * contact. */
+static void split_moment(const struct percuss_slow_contact *contact, double normal,
+                         const double along[3], double moment[3])
+{
+    double tangent[2][3];
+    percuss_slow_tangents(contact, tangent[0], tangent[1]);
+    moment[0] = normal;
+    for (int t = 0; t < 2; t++)
+        moment[1 + t] =
+            along[0] * tangent[t][0] + along[1] * tangent[t][1] + along[2] * tangent[t][2];
 }
 
 /* Adds an entry's impulse times how long it had been there. */

@@ -12,12 +12,13 @@
 enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
                                   const struct percuss_request *request);
 
-/* Applies all entries up to now and forgets episodes that are over; *applied counts them. */
+/* Applies all entries up to now, and forgets episodes that were over before the step that ends now;
+ * *applied counts the entries. */
 enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied);
 
-/* The revocable episode that the contact is part of and that is within its window, or NULL. */
+/* The revocable episode that the contact is part of and whose window `time` is in, or NULL. */
 struct episode *episode_of(const struct percuss_slow *slow,
-                           const struct percuss_slow_contact *contact, double now);
+                           const struct percuss_slow_contact *contact, double time);
 
 /* The last time up to `time` at which none of its sub-impacts is under way. */
 double episode_pause(const struct episode *episode, double time);

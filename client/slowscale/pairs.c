@@ -37,7 +37,7 @@ static struct pair *add(struct percuss_slow *slow)
         slow->pair_capacity = capacity;
     }
     struct pair *pair = &slow->pairs[slow->pair_count++];
-    *pair = (struct pair){.latch = LATCH_ARMED, .when = NAN};
+    *pair = (struct pair){.latch = LATCH_ARMED, .when = NAN, .over = -INFINITY, .touch = -INFINITY};
     return pair;
 }
 
@@ -75,8 +75,10 @@ void pairs_observe(struct percuss_slow *slow, size_t count,
 {
     for (size_t i = 0; i < count; i++) {
         struct pair *pair = pairs_find(slow, &contacts[i]);
-        if (now > pair->when) /* never, if that is unknown */
-            pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - pair->when);
+        if (!(now > pair->when)) /* always, if that is unknown */
+            continue;
+        pair->observed = true;
+        pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - pair->when);
     }
 }
 
@@ -87,22 +89,25 @@ void pairs_give_gaps(const struct percuss_slow *slow, size_t count,
         contacts[i].gap = pairs_find(slow, &contacts[i])->contact.gap;
 }
 
-void pairs_update(struct percuss_slow *slow, double now)
-{
-    for (size_t i = 0; i < slow->pair_count; i++) {
-        struct pair *pair = &slow->pairs[i];
-        if (pair->latch == LATCH_PLAYING && slow_has_come(pair->until, now))
-            pair->latch = LATCH_WAITING;
-        bool apart = !pair->seen || pair->contact.gap > 0.0 || pair->gap_rate >= 0.0;
-        if (pair->latch == LATCH_WAITING && (apart || slow_has_come(pair->over, now)))
-            pair->latch = LATCH_ARMED;
-    }
-}
-
 /* The acceleration that presses a pair together, m/s^2. */
 static double pressing(const struct percuss_slow_contact *contact)
 {
     return contact->gap_acceleration != 0.0 ? fmax(0.0, -contact->gap_acceleration) : GRAVITY;
+}
+
+double pairs_acceleration(const struct percuss_slow *slow,
+                          const struct percuss_slow_contact *contact)
+{
+    const struct pair *pair = pairs_find(slow, contact);
+    return contact->gap_acceleration != 0.0 || !pair ? contact->gap_acceleration
+                                                     : pair->acceleration;
+}
+
+bool pairs_knows_acceleration(const struct percuss_slow *slow,
+                              const struct percuss_slow_contact *contact)
+{
+    const struct pair *pair = pairs_find(slow, contact);
+    return contact->gap_acceleration != 0.0 || (pair && pair->observed);
 }
 
 /* A pair that lay together without approach at the last call can approach only by the pressing
@@ -135,17 +140,46 @@ static double lying_gap(const struct percuss_slow *slow, const struct pair *pair
     return fmax(slow->config.group_gap, known ? pressing(&pair->contact) * step * step : 0.0);
 }
 
+static bool touches(const struct percuss_slow *slow, const struct pair *pair, double now)
+{
+    return pair->seen && pair->contact.gap <= lying_gap(slow, pair, now - slow->time);
+}
+
+/* A pair that touched within this step and has turned round since then made a flight that is none
+ * as well. */
+static void settle(const struct percuss_slow *slow, struct pair *pair, double now)
+{
+    bool hit = pair->touch > slow->time;
+    double turned = hit ? pressing(&pair->contact) * (now - pair->touch) : 0.0;
+    double slow_enough = pairs_rest_speed(slow, &pair->contact, now) + turned;
+    pair->lies =
+        touches(slow, pair, now) && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
+    /* above the touch the engine's own contact could not act yet */
+    pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
+}
+
+void pairs_update(struct percuss_slow *slow, double now)
+{
+    for (size_t i = 0; i < slow->pair_count; i++) {
+        struct pair *pair = &slow->pairs[i];
+        if (pair->latch == LATCH_PLAYING && slow_has_come(pair->until, now))
+            pair->latch = LATCH_WAITING;
+        bool apart = !pair->seen || pair->contact.gap > 0.0 || pair->gap_rate >= 0.0;
+        if (pair->latch == LATCH_WAITING && (apart || slow_has_come(pair->over, now)))
+            pair->latch = LATCH_ARMED;
+        if (pair->touch > slow->time && pair->gap_rate < 0.0)
+            settle(slow, pair, now);
+    }
+}
+
 void pairs_settle(struct percuss_slow *slow, double now)
 {
     for (size_t i = 0; i < slow->pair_count; i++) {
         struct pair *pair = &slow->pairs[i];
         double slow_enough = pairs_rest_speed(slow, &pair->contact, now);
-        bool touches = pair->seen && pair->contact.gap <= lying_gap(slow, pair, now - slow->time);
-        pair->lies = touches && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
-        /* above the touch the engine's own contact could not act yet */
-        pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
-        pair->rests =
-            touches && pair->latch != LATCH_PLAYING && fabs(pair->gap_rate) <= slow_enough;
+        settle(slow, pair, now);
+        pair->rests = touches(slow, pair, now) && pair->latch != LATCH_PLAYING &&
+                      fabs(pair->gap_rate) <= slow_enough;
     }
 }
 

@@ -36,6 +36,13 @@ void pairs_update(struct percuss_slow *slow, double now);
 /* Sees which pairs lie together, at the end of a call. */
 void pairs_settle(struct percuss_slow *slow, double now);
 
+/* The acceleration of a gap, m/s^2, as the engine states it or as the gap's rates showed it; 0
+ * where it is not known. */
+double pairs_acceleration(const struct percuss_slow *slow,
+                          const struct percuss_slow_contact *contact);
+bool pairs_knows_acceleration(const struct percuss_slow *slow,
+                              const struct percuss_slow_contact *contact);
+
 /* Approaches up to this speed are no impacts. */
 double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
                         double now);

@@ -21,9 +21,11 @@ struct pair {
     double when; /* s; NAN: not seen at the last call, and unknown since then */
     enum latch latch;
     double until;        /* s: end of PLAYING */
-    double over;         /* s: end of WAITING: the answer's window ends here */
+    double over;         /* s: end of WAITING: the answer's window ends here; -INFINITY: none */
+    double touch;        /* s: of its last impact; -INFINITY: none */
     bool seen;           /* in the present call */
     bool lies;           /* touched and did not approach as an impact at the end of the last call */
+    bool observed;       /* at two calls, so that its acceleration is known: */
     double acceleration; /* m/s^2, of the gap in the last step without an impulse */
     double had;          /* m/s: approach then, if it lay above the touch */
     bool rests;          /* was slow then as well */
@@ -70,7 +72,7 @@ struct percuss_slow {
     size_t pair_count, pair_capacity;
     struct pair *pairs;
     struct episode *episodes;
-    double time; /* s: of the last call that ended well */
+    double time; /* s: of the last call that ended well; NAN: there was none */
     struct percuss_slow_counts counts;
 };
 
@@ -78,17 +80,6 @@ struct percuss_slow {
 static inline bool slow_moves(const struct percuss_slow *slow)
 {
     return slow->config.move || slow->config.move_vector;
-}
-
-/* Change of the gap of contact i by a movement of M^-1 w moment at contact j, along its normal and
- * tangents, by the engine's matrices; without `oblique` (NULL) by the part along the normal. */
-static inline double slow_gap_change(const double *delassus, const double *oblique, size_t count,
-                                     size_t i, size_t j, const double moment[3])
-{
-    const double *w = oblique + 9 * count * i + 3 * j;
-    if (!oblique)
-        return delassus[i * count + j] * moment[0];
-    return w[0] * moment[0] + w[1] * moment[1] + w[2] * moment[2];
 }
 
 /* s: an engine's clock rarely ends on the very bit asked for */

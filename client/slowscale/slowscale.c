@@ -13,6 +13,7 @@
 #include "group.h"
 #include "pairs.h"
 #include "question.h"
+#include "touch.h"
 
 /* One impact: the group of contacts, the question, the answer or the declared restitution. */
 
@@ -22,6 +23,9 @@ static const double NO_COUPLING = 1e-12;
 /* Change of speed by an acceleration during an impact, relative to the approach, below which it is
  * omitted. */
 static const double NEGLIGIBLE = 1e-3;
+
+/* Impacts of a contact in one call. */
+enum { MOST_IMPACTS = 4 };
 
 /* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
  * vibration. */
@@ -38,16 +42,17 @@ static bool are_coupled(const struct percuss_slow *slow, const struct group *see
     return fabs(seen->delassus[i * n + j]) > NO_COUPLING * size;
 }
 
-/* Whether a contact may take part: it touches or nearly does, or its list is being played and can
- * be revoked. Impulses applied in one go have happened. */
+/* Whether a contact may take part in an impact at seen->start: it touches or nearly does, or its
+ * list is being played and can be revoked. Impulses applied in one go have happened. */
 static bool may_join(const struct percuss_slow *slow, const struct group *seen, size_t i,
                      double now)
 {
-    if (episode_of(slow, &seen->contacts[i], now))
+    const struct percuss_slow_contact *contact = &seen->contacts[i];
+    if (episode_of(slow, contact, seen->start))
         return true;
-    const struct pair *pair = pairs_find(slow, &seen->contacts[i]);
-    return seen->contacts[i].gap <= slow->config.group_gap &&
-           !(pair && pair->latch == LATCH_PLAYING);
+    const struct pair *pair = pairs_find(slow, contact);
+    struct approach then = touch_before(slow, contact, seen->gap_rate[i], now, now - seen->start);
+    return then.gap <= slow->config.group_gap && !(pair && pair->latch == LATCH_PLAYING);
 }
 
 /* Marks `first` and all contacts coupled to it through touching pairs; returns their number. */
@@ -75,19 +80,18 @@ static size_t mark_members(const struct percuss_slow *slow, const struct group *
  * question begins there. Rates change.
  *
  *     list 1   ...[====]....[====]........   [ ] a sub-impact
- *     list 2   .......[===].....[=====]...   1 now, in one of list 2
+ *     list 2   .......[===].....[=====]...   1 the touch, in one of list 2
  *                          3   2    1        2 before it, in one of list 1
  *                                            3 before that, in none: the start
  */
 static enum percuss_result preempt(struct percuss_slow *slow, struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
-    group->start = now;
     /* a pause of one list may be the midst of a sub-impact of another */
     for (bool moved = true; moved;) {
         moved = false;
         for (size_t i = 0; i < group->count; i++) {
-            const struct episode *episode = episode_of(slow, &group->contacts[i], now);
+            const struct episode *episode = episode_of(slow, &group->contacts[i], group->start);
             double start = episode ? episode_pause(episode, group->start) : group->start;
             moved = moved || start < group->start;
             group->start = fmin(group->start, start);
@@ -95,27 +99,11 @@ static enum percuss_result preempt(struct percuss_slow *slow, struct group *grou
     }
     /* all go back to the same instant */
     for (size_t i = 0; !result && i < group->count; i++) {
-        struct episode *episode = episode_of(slow, &group->contacts[i], now);
+        struct episode *episode = episode_of(slow, &group->contacts[i], group->start);
         if (episode)
             result = episode_revoke(slow, episode, group, now);
     }
     return result;
-}
-
-/* The gaps at the group's start, as straight motion from there, without the impulses taken back,
- * led to those of now. */
-static void go_back(const struct percuss_slow *slow, struct group *group, double now)
-{
-    double back = now - group->start;
-    for (size_t i = 0; i < group->count; i++) {
-        struct percuss_slow_contact *contact = &group->contacts[i];
-        for (size_t j = 0; j < group->count; j++)
-            contact->gap -= slow_gap_change(group->delassus, group->oblique, group->count, i, j,
-                                            &group->moved[3 * j]);
-        if (slow_moves(slow)) /* where the bodies are by now */
-            pairs_find(slow, contact)->contact.gap = contact->gap;
-        contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
-    }
 }
 
 static bool use_declared(const struct percuss_slow *slow, struct group *group)
@@ -248,16 +236,10 @@ static struct group *gather(const struct percuss_slow *slow, const struct group 
     for (size_t i = 0; group && i < all->count; i++)
         if (member[i])
             group->contacts[next++] = all->contacts[i];
+    if (group)
+        group->start = all->start;
     free(member);
     return group;
-}
-
-/* The gap acceleration of a member, as the engine states it or as its rates showed it. */
-static double acceleration(const struct percuss_slow *slow,
-                           const struct percuss_slow_contact *member)
-{
-    const struct pair *pair = pairs_find(slow, member);
-    return member->gap_acceleration != 0.0 || !pair ? member->gap_acceleration : pair->acceleration;
 }
 
 /* Without config.move, impulses that are not applied at their times leave the bodies in wrong
@@ -268,7 +250,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
     double latest = 0.0;
     for (size_t i = 0; group->reply && !slow_moves(slow) && i < group->count; i++) {
         const struct percuss_contact_result *contact = &group->reply->contacts[i];
-        double a = acceleration(slow, &group->contacts[i]);
+        double a = pairs_acceleration(slow, &group->contacts[i]);
         /* all at the start: the effect of the gap's acceleration meanwhile must be negligible */
         if (slow->config.application == PERCUSS_SLOW_TOTAL &&
             fabs(a) * contact->end_time > NEGLIGIBLE * fabs(group->gap_rate[i]))
@@ -304,10 +286,10 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
         result = group_probe(slow, group, true);
     if (!result && question_is_oblique(slow, group))
         result = group_probe_oblique(slow, group);
-    if (!result) {
-        go_back(slow, group, now);
+    if (!result)
+        result = touch_go_back(slow, group, now);
+    if (!result)
         result = find_impulses(slow, group, request);
-    }
     if (!result)
         result = check_places(slow, group, now);
     /* back to where all was */
@@ -335,7 +317,8 @@ static enum percuss_result impact_solve(struct percuss_slow *slow, const struct 
         result = group_probe(slow, all, true);
     }
     if (!result) {
-        /* of these the group of the first one */
+        /* of these the group of the first one, when it touched */
+        all->start = touch_time(slow, &all->contacts[first], all->gap_rate[first], now);
         group = gather(slow, all, first, now);
         result = group ? prepare(slow, group, request, now) : slow_no_memory();
     }
@@ -378,6 +361,8 @@ static enum percuss_result slowscale_check(const struct percuss_slow_config *con
         return slow_fail(bad, "rest_speed: %g: must be finite and >= 0 m/s", config->rest_speed);
     if (!(config->group_gap >= 0.0) || isinf(config->group_gap))
         return slow_fail(bad, "group_gap: %g: must be finite and >= 0 m", config->group_gap);
+    if (!isfinite(config->velocity_lag))
+        return slow_fail(bad, "velocity_lag: %g: must be finite, s", config->velocity_lag);
     if (config->application != PERCUSS_SLOW_LIST && config->application != PERCUSS_SLOW_TOTAL)
         return slow_fail(bad, "application: %u: must be 0 (list) or 1 (total)",
                          (unsigned)config->application);
@@ -411,6 +396,7 @@ enum percuss_result percuss_slow_create(const struct percuss_slow_config *config
         made->bodies[i].id = made->ids[i];
     }
     made->config.bodies = made->bodies;
+    made->time = NAN;
     *slow = made;
     return PERCUSS_RESULT_OK;
 }
@@ -470,12 +456,19 @@ static struct group *look(const struct percuss_slow *slow, size_t count,
     return NULL;
 }
 
+/* The contact that is due and touched first; group->count: none. */
 static size_t first_due(const struct percuss_slow *slow, const struct group *group, double now)
 {
-    size_t i = 0;
-    while (i < group->count && !pairs_is_due(slow, &group->contacts[i], group->gap_rate[i], now))
-        i++;
-    return i;
+    size_t first = group->count;
+    double earliest = INFINITY;
+    for (size_t i = 0; i < group->count; i++) {
+        if (!pairs_is_due(slow, &group->contacts[i], group->gap_rate[i], now))
+            continue;
+        double time = touch_time(slow, &group->contacts[i], group->gap_rate[i], now);
+        first = time < earliest ? i : first;
+        earliest = fmin(time, earliest);
+    }
+    return first;
 }
 
 bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
@@ -511,12 +504,12 @@ static enum percuss_result see_rates(struct percuss_slow *slow, struct group *gr
     return result;
 }
 
-/* Impacts of one call are bounded: those that follow one another at an instant have other bodies.
- */
+/* Impacts of one call are bounded: those that follow one another at an instant have other bodies,
+ * and a pair that hits again and again within a step is due at the next call. */
 static enum percuss_result solve_all(struct percuss_slow *slow, struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
-    for (size_t i = 0; !result && i <= group->count; i++) {
+    for (size_t i = 0; !result && i < MOST_IMPACTS * group->count; i++) {
         size_t first = first_due(slow, group, now);
         if (first == group->count)
             break;

@@ -16,6 +16,9 @@ static bool loop_probe(void *context, struct percuss_slow_view *view)
         view->bodies[i] = loop->bodies[i];
         memcpy(view->bodies[i].id, id, sizeof id);
     }
+    /* bodies hold their places but for their overlap, half of which is on either side of a point */
+    for (size_t i = 0; view->bodies && i < loop->pair_count; i++)
+        view->bodies[loop->pairs[i].a].position[2] += fmin(0.0, loop->pairs[i].gap);
     return true;
 }
 
@@ -239,8 +242,12 @@ void loop_fly(struct loop *loop, double dt)
 
 void loop_step(struct loop *loop, double dt)
 {
+    struct percuss_slow_contact contacts[LOOP_CONTACTS];
     loop_fly(loop, dt);
-    if (percuss_slow_advance(loop->slow, loop->pair_count, loop->pairs))
+    memcpy(contacts, loop->pairs, sizeof contacts);
+    for (size_t i = 0; i < loop->pair_count; i++)
+        contacts[i].point[2] += 0.5 * fmin(0.0, contacts[i].gap);
+    if (percuss_slow_advance(loop->slow, loop->pair_count, contacts))
         fail_msg("%s", percuss_slow_error_text());
 }
 

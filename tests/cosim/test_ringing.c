@@ -42,9 +42,9 @@ static double energy(const struct loop *loop)
 struct manner {
     enum percuss_slow_application application;
     bool moves;
-    bool locates; /* touches, and steps end where a sub-impact is; else all happens at steps of 1 ms
-                   */
+    bool locates; /* touches, and steps end where a sub-impact is */
     size_t bounces;
+    double height, step; /* m, s */
 };
 
 /* Lets the ball bounce; the energy after the last bounce by that before the first. */
@@ -55,10 +55,10 @@ static double bounce(const struct manner *manner, struct loop *loop)
     double before = energy(loop);
     while (loop->reports < manner->bounces || !isinf(percuss_slow_next(loop->slow))) {
         if (manner->locates)
-            loop_run(loop, loop->time + 1e-3, 1e-3);
+            loop_run(loop, loop->time + manner->step, manner->step);
         else
-            loop_step(loop, 1e-3);
-        assert_true(loop->time < 0.1 * (double)manner->bounces);
+            loop_step(loop, manner->step);
+        assert_true(loop->time < 0.3 * (double)manner->bounces);
     }
     return energy(loop) / before;
 }
@@ -69,10 +69,10 @@ struct dropped {
     bool late;    /* the notes say that an impulse was applied late */
 };
 
-static struct dropped drop(const struct manner *manner, double height)
+static struct dropped drop(const struct manner *manner)
 {
     struct lab *lab = make_lab();
-    struct loop *loop = make_loop(lab, height);
+    struct loop *loop = make_loop(lab, manner->height);
     struct dropped dropped = {.left = bounce(manner, loop), .shift = loop->time_shift};
     dropped.late = strstr(loop->notes, "late without config.move") != NULL;
     loop_free(loop);
@@ -82,7 +82,7 @@ static struct dropped drop(const struct manner *manner, double height)
 
 static void check(const struct manner *manner, double lowest, double highest)
 {
-    struct dropped dropped = drop(manner, 5e-3);
+    struct dropped dropped = drop(manner);
     if (!(dropped.left >= lowest && dropped.left <= highest))
         fail_msg("%g of the energy is left: must be %g to %g", dropped.left, lowest, highest);
     /* worth the name: the beam was in the way up to a millisecond before the rigid touch */
@@ -94,19 +94,22 @@ static void check(const struct manner *manner, double lowest, double highest)
 static void ten_bounces_on_a_ringing_beam_keep_the_energy(void **state)
 {
     (void)state;
-    check(&(struct manner){PERCUSS_SLOW_LIST, true, true, 10}, 0.997, 1.003);
+    check(&(struct manner){PERCUSS_SLOW_LIST, true, true, 10, 5e-3, 1e-3}, 0.997, 1.003);
 }
 
 static void so_they_do_with_each_impact_applied_in_total(void **state)
 {
     (void)state;
-    check(&(struct manner){PERCUSS_SLOW_TOTAL, true, true, 10}, 0.997, 1.003);
+    check(&(struct manner){PERCUSS_SLOW_TOTAL, true, true, 10, 5e-3, 1e-3}, 0.997, 1.003);
 }
 
 static void so_they_do_with_steps_that_stop_nowhere(void **state)
 {
     (void)state;
-    check(&(struct manner){PERCUSS_SLOW_LIST, true, false, 5}, 0.997, 1.003);
+    check(&(struct manner){PERCUSS_SLOW_LIST, true, false, 5, 5e-3, 1e-3}, 0.997, 1.003);
+    /* overlaps of some millimetres, far more than the service takes of a ball of 15 mm */
+    check(&(struct manner){PERCUSS_SLOW_LIST, true, false, 5, 60e-3, 1.0 / 240.0}, 0.997, 1.003);
+    check(&(struct manner){PERCUSS_SLOW_TOTAL, true, false, 5, 60e-3, 1.0 / 240.0}, 0.997, 1.003);
 }
 
 /* What `move` is for; the report says that it is missing. How much is lost is up to the beam's
@@ -117,7 +120,7 @@ static void without_moving_energy_is_lost(void **state)
     struct dropped worst = {.left = INFINITY};
     for (int i = 0; i < 6; i++) {
         struct dropped dropped =
-            drop(&(struct manner){PERCUSS_SLOW_LIST, false, true, 5}, 4.5e-3 + 0.2e-3 * i);
+            drop(&(struct manner){PERCUSS_SLOW_LIST, false, true, 5, 4.5e-3 + 0.2e-3 * i, 1e-3});
         worst = dropped.left < worst.left ? dropped : worst;
     }
     if (!(worst.left >= 0.5 && worst.left <= 0.97))

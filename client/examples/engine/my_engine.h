@@ -52,7 +52,8 @@ static size_t my_contacts(const struct my_world *world, struct percuss_slow_cont
     double gap = sphere[2] - MY_SPHERE_RADIUS - top;
     contacts[0] = (struct percuss_slow_contact){.a = MY_SPHERE,
                                                 .b = MY_BEAM,
-                                                .point = {sphere[0], sphere[1], top},
+                                                /* halfway between the surfaces */
+                                                .point = {sphere[0], sphere[1], top + 0.5 * gap},
                                                 .normal = {0.0, 0.0, 1.0}, /* from b to a */
                                                 .gap = gap};
     return gap < 5e-3 ? 1 : 0;

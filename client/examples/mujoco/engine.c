@@ -215,6 +215,10 @@ void engine_configure(struct engine *engine, struct percuss_slow_config *config)
                                                   .oblique = oblique};
     config->move = move;
     config->move_vector = move_vector;
+    /* Euler's steps move positions by the velocities of their ends; those of Runge and Kutta do not
+     */
+    if (engine->fixed && engine->model->opt.integrator == mjINT_EULER)
+        config->velocity_lag = 0.5 * engine->model->opt.timestep;
 }
 
 /* --- contacts and steps --- */
@@ -301,19 +305,20 @@ enum percuss_result engine_step(struct engine *engine, struct percuss_slow *slow
 {
     struct percuss_slow_contact contacts[ENGINE_CONTACTS];
     double before = 0.0;
-    double after = fmin(step, percuss_slow_next(slow) - engine->data->time);
+    double after = engine->fixed ? step : fmin(step, percuss_slow_next(slow) - engine->data->time);
     mj_copyData(engine->start, engine->model, engine->data);
     step_from_start(engine, after);
     bool due = is_due(engine, slow);
+    bool goes_back = due && !engine->fixed;
     /* the touch, to the last bits of the clock, from the side where the bodies overlap */
-    while (due && after - before > 1e-15) {
+    while (goes_back && after - before > 1e-15) {
         double middle = 0.5 * (before + after);
         if (!(middle > before && middle < after))
             break;
         step_from_start(engine, middle);
         *(is_due(engine, slow) ? &after : &before) = middle;
     }
-    if (due)
+    if (goes_back)
         step_from_start(engine, after);
     size_t count = engine_contacts(engine, due, contacts);
     enum percuss_result result = percuss_slow_advance(slow, count, contacts);

@@ -27,6 +27,7 @@ struct engine {
     size_t constraint_count; /* equality constraints as directions M^-1 j, orthonormal in M */
     double *constraints;     /* [constraint_count x nv] */
     double friction;         /* coefficient of all contacts; 0: the catalogue's, if any */
+    bool fixed;              /* steps of the model's own size, never back to a touch */
     double
         taken; /* J, that the impulses took from all bodies, with MuJoCo's own masses and joints */
     double applied[ENGINE_BODIES][ENGINE_BODIES]; /* N s, by the contact's a and b */
@@ -37,15 +38,15 @@ bool engine_open(struct engine *engine, const char *file, size_t body_count,
                  const struct engine_body *bodies);
 void engine_close(struct engine *engine);
 
-/* Enters the callbacks, with the engine as their context. */
+/* Enters the callbacks, with the engine as their context, and how its velocities lag. */
 void engine_configure(struct engine *engine, struct percuss_slow_config *config);
 
 /* All contacts near touching; with their accelerations if `accelerations`. Returns how many. */
 size_t engine_contacts(struct engine *engine, bool accelerations,
                        struct percuss_slow_contact contacts[ENGINE_CONTACTS]);
 
-/* One step of at most `step` s: to the next sub-impact or touch if that comes before. Then lets the
- * slow scale act. */
+/* One step of at most `step` s: to the next sub-impact or touch if that comes before, or with
+ * `fixed` one of `step` s. Then lets the slow scale act. */
 enum percuss_result engine_step(struct engine *engine, struct percuss_slow *slow, double step);
 
 /* Rigid gap rate of a contact now. */

@@ -15,7 +15,7 @@
 
 struct choice {
     unsigned domain;
-    double restitution, tolerance;
+    double restitution, tolerance, step;
     bool alone, total, falls_back;
     const char *scenes, *output, *only;
 };
@@ -34,6 +34,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         break;
     case 't':
         choice->tolerance = strtod(text, &end);
+        break;
+    case 'h':
+        choice->step = strtod(text, &end);
+        if (!(choice->step > 0.0 && choice->step < INFINITY))
+            argp_error(state, "--fixed-steps: '%s': a number of seconds > 0 is needed", text);
         break;
     /* how impacts are taken */
     case 'n':
@@ -71,6 +76,8 @@ static const struct argp_option options[] = {
     {"tolerance", 't', "T", 0, "on the restitution asked for (1e-4)", 0},
     {"total", 'T', 0, 0, "apply the whole impulse at the start, not each sub-impact at its time",
      0},
+    {"fixed-steps", 'h', "S", 0,
+     "never go back to a touch: steps of S seconds, each touch found behind it", 0},
     {"scenes", 's', "DIR", 0, "where the models are (scenes)", 0},
     {"scene", 'S', "NAME", 0, "only this one", 0},
     {"output", 'o', "DIR", 0, "where the CSV files go (.)", 0},
@@ -163,6 +170,9 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = scene->body_count;
     config.bodies = bodies;
+    engine.fixed = choice->step > 0.0;
+    if (engine.fixed)
+        engine.model->opt.timestep = choice->step;
     engine_configure(&engine, &config);
     config.service = service;
     config.options.tolerance = choice->tolerance;

@@ -81,6 +81,10 @@ struct percuss_slow_config {
      * surface lack what friction did between an impulse's time and the one when it is applied. */
     bool (*move_vector)(void *context, const struct percuss_slow_contact *contact,
                         const double moment[3]);
+    /* s: how long before the state's time the engine's velocities hold. With steps of fixed size h:
+     * h / 2 where a step moves the positions by the velocities of its end (symplectic Euler), -h /
+     * 2 where by those of its start; 0: they hold at the state's time. */
+    double velocity_lag;
 };
 
 #ifdef __cplusplus
@@ -107,10 +111,12 @@ PERCUSS_API bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
 PERCUSS_API double percuss_slow_next(const struct percuss_slow *slow);
 
 /* To be called at every accepted state, with all contacts near touching: plays the sub-impacts that
- * are due, then solves the impacts that are due. Velocities may have changed afterwards. Without
- * fall_back, an impact that has no answer is an error: NO_SERVER, TIMEOUT or another result of the
- * service, INVALID_ARGUMENT for a question that it refuses. The impact then has not happened and
- * nothing is lost: call again at the same state, or later, and it is asked about again.
+ * are due, then solves the impacts that are due. Velocities may have changed afterwards. With
+ * `move` a pair that overlaps is asked about as it was when it touched, up to one step ago: by its
+ * gap, gap rate and gap acceleration; velocities and positions are then those after that impact.
+ * Without fall_back, an impact that has no answer is an error: NO_SERVER, TIMEOUT or another result
+ * of the service, INVALID_ARGUMENT for a question that it refuses. The impact then has not happened
+ * and nothing is lost: call again at the same state, or later, and it is asked about again.
  * INVALID_ARGUMENT, NO_MEMORY otherwise: see percuss_slow_error_text. */
 PERCUSS_API enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count,
                                                      const struct percuss_slow_contact *contacts);

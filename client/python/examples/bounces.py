@@ -30,7 +30,8 @@ class Bouncing(FreeBodies):
 
     def contacts(self) -> list[Contact]:
         gap = self.motion(0).position[2] - BALL - BEAM
-        return [Contact(0, 1, (0.0, 0.0, BEAM), (0.0, 0.0, 1.0), gap, -GRAVITY)]
+        # halfway between the surfaces
+        return [Contact(0, 1, (0.0, 0.0, BEAM + 0.5 * gap), (0.0, 0.0, 1.0), gap, -GRAVITY)]
 
     def balls_energy(self) -> float:
         """J, above the ball's lying on the beam."""
@@ -40,7 +41,9 @@ class Bouncing(FreeBodies):
 Course = list[tuple[float, float, float]]
 
 
-def bounce(client: percuss.Client, count: int = 10, height: float = 5e-3) -> tuple[list[Report], Course]:
+def bounce(
+    client: percuss.Client, count: int = 10, height: float = 5e-3, step: float = 1e-3, fixed: bool = False
+) -> tuple[list[Report], Course]:
     """The reports, and at first and after each bounce: time, the ball's energy, the beam's by vibration."""
     world = Bouncing(client.bodies()["steel-sphere"].mass, height)
     reports: list[Report] = []
@@ -49,7 +52,7 @@ def bounce(client: percuss.Client, count: int = 10, height: float = 5e-3) -> tup
     with SlowScale(bodies, world, client, options=percuss.Options(tolerance=1e-4), report=reports.append) as slow:
         seen = 0
         while seen < count:
-            run(world, slow, world.now() + 1e-3, 1e-3)
+            run(world, slow, world.now() + step, step, fixed)
             # between two bounces, when all impulses of the last one have been played
             if len(reports) > seen and math.isinf(slow.next()):
                 seen = len(reports)

@@ -109,6 +109,7 @@ class Config(ctypes.Structure):
         ("fall_back", c_bool),
         ("move", Apply),
         ("move_vector", ApplyVector),
+        ("velocity_lag", c_double),
     ]
 
 

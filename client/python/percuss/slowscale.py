@@ -295,13 +295,16 @@ class SlowScale:
         report: Callable[[Report], None] | None = None,
         timeout: float = 60.0,
         reconnect: float = 10.0,
+        velocity_lag: float = 0.0,
     ) -> None:
         """bodies: of the engine, in the order of its indices; a str is the id in the catalogue. client: a Client or
         Local, connected or not; None: every impact has the declared `restitution`, 0..1. rest_speed: m/s; slower
         approaches are no impacts; 0: derived from what presses. group_gap: m; a coupled pair this near joins an impact.
         fall_back: where no answer comes, or it is a refusal, the declared restitution is used, reported and counted;
         False: such an impact is an error of `advance`. report: called for each impact. timeout: s, for an answer;
-        reconnect: s, for a server to be found."""
+        reconnect: s, for a server to be found. velocity_lag: s, how long before the state's time the engine's
+        velocities hold: h / 2 where steps of the size h move the positions by the velocities of their end, -h / 2 where
+        by those of their start."""
         self._handle = ctypes.c_void_p()
         self._callbacks = _Callbacks(engine, report)
         self._client = client
@@ -317,6 +320,7 @@ class SlowScale:
         _convert.fill(options or Options(), config.options, "options")
         config.application, config.restitution = application, restitution
         config.rest_speed, config.group_gap, config.fall_back = rest_speed, group_gap, fall_back
+        config.velocity_lag = velocity_lag
         # the thunks of the callbacks live as long as this
         self._config = config
         self._check(_library.percuss_slow_create(ctypes.byref(config), ctypes.byref(self._handle)))

@@ -55,8 +55,12 @@ class World(Engine):
         raise NotImplementedError("restore")
 
 
-def run(world: World, slow: SlowScale, end: float, size: float) -> None:
-    """Goes on to `end` in steps of up to `size`, s, that end where a sub-impact or a touch is."""
+def run(world: World, slow: SlowScale, end: float, size: float, fixed: bool = False) -> None:
+    """Goes on to `end` in steps of up to `size`, s, that end where a sub-impact or a touch is. `fixed`: all steps have
+    that size, and none is taken back: by `move`, touches within them count; `save` and `restore` are not needed."""
+    while fixed and world.now() < end - 1e-12:
+        world.step(size)
+        slow.advance(world.contacts())
     while world.now() < end - 1e-12:
         before, step = world.save(), min(size, end - world.now(), slow.next() - world.now())
         # what is behind by a rounding is played without a step

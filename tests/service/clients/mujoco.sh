@@ -42,6 +42,20 @@ awk 'function near(a, b) { return a - b < 1e-6 && b - a < 1e-6 }
       exit !(near($1, m + M + 0.09 / I) && near($2, M + 0.135 / I) && near($3, $2) &&
              near($4, m + M + 0.2025 / I)) }' "$work/matrix" || fail "$(cat "$work/matrix")"
 
+say "steps of 1/240 s that never go back: the touches within them"
+mkdir "$work/fixed"
+expect 0 "$program" --no-service --restitution 0.4 --scenes "$example/scenes" --output "$work/fixed" \
+    --fixed-steps 0.0041666667 --scene pendulum-hinged-bar
+# the swing's acceleration changes within a step, by some 1e-3 of gravity
+grep -c ^pendulum "$work/fixed/impacts.csv" | grep -qx 3 || fail "not three impacts"
+line=2
+for time in 0.354870653 1.064243028 1.773693210; do
+    close_to 4e-6 "$(sed -n ${line}p "$work/fixed/impacts.csv" | cut -d , -f 4)" "$time"
+    line=$((line + 1))
+done
+expect 64 "$program" --fixed-steps 0
+says "--fixed-steps: '0': a number of seconds > 0 is needed"
+
 # a double pendulum at 50 degrees, W_nn by its two angles' M in closed form; it meets the wall some 0.06 mrad further
 double_pendulum=5.542690952
 close_to 1e-3 "$(scene double-pendulum-wall | cut -d , -f 12)" "$double_pendulum"
