@@ -447,8 +447,10 @@ static struct group *look(const struct percuss_slow *slow, size_t count,
         *result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for %zu contacts", count);
         return NULL;
     }
-    if (count)
-        memcpy(group->contacts, contacts, count * sizeof *contacts);
+    for (size_t i = 0; i < count; i++) {
+        group->contacts[i] = contacts[i];
+        touch_lay_point(slow, &group->contacts[i]);
+    }
     *result = group_probe(slow, group, false);
     if (!*result)
         return group;
@@ -531,7 +533,7 @@ enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count
     struct group *group = look(slow, count, contacts, &result);
     if (!group)
         return result;
-    if (!pairs_take(slow, count, contacts))
+    if (!pairs_take(slow, count, group->contacts))
         result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for %zu pairs", count);
     if (!result) {
         pairs_observe(slow, count, group->contacts, group->gap_rate, now);

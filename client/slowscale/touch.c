@@ -44,6 +44,22 @@ double touch_time(const struct percuss_slow *slow, const struct percuss_slow_con
     return then.rate < -pairs_rest_speed(slow, contact, now) ? now - s : now;
 }
 
+/* The share of a in where the point lies between the surfaces, 0..1: 1 on its own. */
+static double share_of_a(const struct percuss_slow *slow,
+                         const struct percuss_slow_contact *contact)
+{
+    bool a = slow->bodies[contact->a].fixed, b = slow->bodies[contact->b].fixed;
+    return a == b ? 0.5 : b ? 1.0 : 0.0;
+}
+
+void touch_lay_point(const struct percuss_slow *slow, struct percuss_slow_contact *contact)
+{
+    /* a's surface is where b's is, and `gap` along the normal from there */
+    double along = fmin(0.0, contact->gap) * (share_of_a(slow, contact) - 0.5);
+    for (int k = 0; k < 3; k++)
+        contact->point[k] += along * contact->normal[k];
+}
+
 /* Change of the gap of contact i by the impulses taken back, which had been there for a while: by
  * the engine's matrices; without `oblique` by the parts along the normals. */
 static double gap_change(const struct group *group, size_t i)
@@ -112,13 +128,15 @@ static void place_bodies(const struct percuss_slow *slow, const struct group *gr
         continue;
 }
 
-static void set_back(struct group *group, const struct place *places)
+static void set_back(const struct percuss_slow *slow, struct group *group,
+                     const struct place *places)
 {
     for (size_t i = 0; i < group->count; i++) {
         struct percuss_slow_contact *contact = &group->contacts[i];
         const struct place *a = &places[contact->a], *b = &places[contact->b];
-        for (int k = 0; k < 3; k++) /* as far from both surfaces as it was */
-            contact->point[k] += 0.5 * (a->moved[k] + b->moved[k]);
+        double share = share_of_a(slow, contact);
+        for (int k = 0; k < 3; k++) /* with the surface that it lies on, or halfway between them */
+            contact->point[k] += share * a->moved[k] + (1.0 - share) * b->moved[k];
     }
 }
 
@@ -143,7 +161,7 @@ enum percuss_result touch_go_back(const struct percuss_slow *slow, struct group 
     }
     if (!result) {
         place_bodies(slow, group, change, places);
-        set_back(group, places);
+        set_back(slow, group, places);
     }
     for (size_t i = 0; !result && i < bodies; i++)
         for (int k = 0; k < 3; k++) {

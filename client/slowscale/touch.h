@@ -30,4 +30,8 @@ double touch_time(const struct percuss_slow *slow, const struct percuss_slow_con
  * Along the surface and in angle they stay where they are now. */
 enum percuss_result touch_go_back(const struct percuss_slow *slow, struct group *group, double now);
 
+/* Lays the point of overlapping surfaces, which is halfway between them, on that of the only body
+ * that moves, if one is fixed: so that the arm of friction is that of the touch. */
+void touch_lay_point(const struct percuss_slow *slow, struct percuss_slow_contact *contact);
+
 #endif

@@ -206,7 +206,10 @@ static void pendulum_hit(struct pendulum *p, double mu, enum percuss_slow_applic
     /* the pendulum holds its place: what follows is of its rates */
     while (isfinite(percuss_slow_next(slow))) {
         p->time = percuss_slow_next(slow);
+        contact = touch(p, mu);
         contact.gap = -1e-6;
+        for (int k = 0; k < 3; k++) /* halfway between the surfaces, and the ball's as it was */
+            contact.point[k] -= 0.5 * contact.gap * contact.normal[k];
         if (percuss_slow_advance(slow, 1, &contact))
             fail_msg("%s", percuss_slow_error_text());
     }

@@ -60,7 +60,7 @@ PERCUSS_API double percuss_slow_force_centre(const struct percuss_sub_impact *su
 struct percuss_slow_contact {
     uint32_t a, b;           /* indices of the engine's bodies */
     uint32_t feature;        /* tells several contacts of the same two bodies apart; else 0 */
-    double point[3];         /* world, m */
+    double point[3];         /* world, m; halfway between the surfaces */
     double normal[3];        /* world, unit, from b to a */
     double gap;              /* m; negative: overlap */
     double gap_acceleration; /* m/s^2 without contact forces; negative presses; 0 if unknown */

@@ -6,6 +6,7 @@ import itertools
 import math
 import os
 import sys
+import tempfile
 import unittest
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -17,7 +18,7 @@ import percuss
 from percuss import slowscale
 from percuss.request import FloatArray
 from percuss.slowscale import Application, Body, Contact, Engine, Report, SlowScale
-from percuss.world import rotation, run
+from percuss.world import FreeBodies, rotation, run
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "examples"))
 from bounces import bounce
@@ -217,6 +218,21 @@ class Callbacks(unittest.TestCase):
                 slow.advance(world.contacts())
 
 
+class Thrown(FreeBodies):
+    """A ball of 15 mm thrown over a floor with backspin, from 50 mm."""
+
+    def __init__(self, mass: float) -> None:
+        moment = 0.4 * mass * 0.015**2
+        ball = percuss.BodyMotion("", position=(0, 0, 0.065), velocity=(1, 0, 0), angular_velocity=(0, -30, 0))
+        inertias = [slowscale.Inertia(mass, (moment, moment, moment)), slowscale.Inertia(math.inf)]
+        super().__init__([ball, percuss.BodyMotion("")], inertias, (0.0, 0.0, -9.81))
+
+    def contacts(self) -> list[Contact]:
+        x, y, z = self.motion(0).position
+        gap = z - 0.015
+        return [Contact(0, 1, (x, y, 0.5 * gap), (0, 0, 1), gap, -9.81, friction=0.2)]
+
+
 class Asking(unittest.TestCase):
     client: percuss.Client
 
@@ -405,6 +421,29 @@ class Asking(unittest.TestCase):
         np.testing.assert_allclose(np.array(sums) / sums[0], 1.0, atol=3e-3)
         self.assertAlmostEqual(reports[0].time, math.sqrt(2 * 60e-3 / 9.81), delta=1e-9)
         self.assertAlmostEqual(reports[0].gap_rate[0], -math.sqrt(2 * 60e-3 * 9.81), delta=1e-9)
+
+    def test_a_ball_that_spins_and_slides_in_fixed_steps(self) -> None:
+        """Three oblique hits on a floor: the velocities, spin and places of steps that stop at each touch."""
+        catalogue = (
+            "materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}\n"
+            "bodies: {ball: {shape: sphere, material: steel, radius: 0.015}, floor: {shape: half-space, material: steel}}\n"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "floor.yaml")
+            path.write_text(catalogue)
+            client = percuss.Local(path)
+        ends = []
+        with client:
+            mass = client.bodies()["ball"].mass
+            for step, fixed in ((5e-3, False), (1 / 240, True), (1 / 48, True)):
+                world = Thrown(mass)
+                with SlowScale([Body("ball", free=True), Body("floor", fixed=True)], world, client) as slow:
+                    run(world, slow, 0.625, step, fixed)
+                    self.assertEqual(slow.counts.impacts, 3)
+                ball = world.motion(0)
+                ends.append(np.concatenate((ball.position, ball.velocity, ball.angular_velocity)))
+        np.testing.assert_allclose(ends[1:], [ends[0]] * 2, rtol=0.0, atol=1e-8)
+        self.assertLess(ends[0][3], 0.7)  # friction has braked it
 
     def test_tokens_belong_to_the_end_of_the_window(self) -> None:
         """The second bounce asked about by hand, with the vibration that the first one's tokens name."""
