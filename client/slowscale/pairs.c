@@ -124,12 +124,22 @@ double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_sl
     return fmax(SLOWEST, pair->had + ALLOWANCE * pressing(contact) * (now - slow->time));
 }
 
+/* The rate by which a pair is judged, m/s: that of the state or, where the engine's velocities lag,
+ * that of its path, whichever approaches more slowly. A body that lies still has but one of them
+ * that is 0. */
+static double slower_rate(const struct percuss_slow *slow,
+                          const struct percuss_slow_contact *contact, double gap_rate)
+{
+    double path = gap_rate + pairs_acceleration(slow, contact) * slow->config.velocity_lag;
+    return fmax(gap_rate, path);
+}
+
 bool pairs_is_due(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
                   double gap_rate, double now)
 {
     const struct pair *pair = pairs_find(slow, contact);
     return contact->gap <= 0.0 && (!pair || pair->latch == LATCH_ARMED) &&
-           gap_rate < -pairs_rest_speed(slow, contact, now);
+           slower_rate(slow, contact, gap_rate) < -pairs_rest_speed(slow, contact, now);
 }
 
 /* How far apart bodies still lie together: a flight that one step of the engine cannot resolve is
@@ -152,8 +162,8 @@ static void settle(const struct percuss_slow *slow, struct pair *pair, double no
     bool hit = pair->touch > slow->time;
     double turned = hit ? pressing(&pair->contact) * (now - pair->touch) : 0.0;
     double slow_enough = pairs_rest_speed(slow, &pair->contact, now) + turned;
-    pair->lies =
-        touches(slow, pair, now) && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
+    pair->lies = touches(slow, pair, now) && pair->latch == LATCH_ARMED &&
+                 slower_rate(slow, &pair->contact, pair->gap_rate) >= -slow_enough;
     /* above the touch the engine's own contact could not act yet */
     pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
 }
