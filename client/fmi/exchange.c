@@ -128,8 +128,8 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance handle, fmi3Boolean no_earli
     struct fmu *fmu = handle;
     if (!fmu_is_in(fmu, MODE_CONTINUOUS, "fmi3CompletedIntegratorStep"))
         return fmi3Error;
-    *enter_event_mode = *terminate = false;
-    MODEL.completed(fmu->numbers);
+    *terminate = false;
+    *enter_event_mode = MODEL.completed(fmu->numbers);
     return fmi3OK;
 }
 

@@ -169,16 +169,51 @@ static fmi3Status initialize(struct fmu *fmu)
     return fmi3OK;
 }
 
+/* Goes back to the touch of a fall that has come below it, and says by how much, s: by the root of
+ * h - v s - g s^2/2, and by the formula that loses no digits. 0: A was not above B. */
+static double go_back_to_touch(struct falling_body *body)
+{
+    double g = body->gravity, v = body->velocity, h = body->height;
+    double squared = v * v + 2.0 * g * h;
+    if (h >= 0.0 || !(squared > 0.0))
+        return 0.0;
+    double late = 2.0 * h / (v - sqrt(squared));
+    body->height = 0.0;
+    body->velocity = v + g * late;
+    return late;
+}
+
+/* An importer of fixed steps sees a touch at the end of its step, too low: the bounce is at the
+ * touch all the same, and so are those that follow within the step. */
+static fmi3Status bounce_late(struct fmu *fmu)
+{
+    struct falling_body *body = (struct falling_body *)fmu->numbers;
+    double late = go_back_to_touch(body);
+    fmi3Status status = bounce(fmu);
+    while (status == fmi3OK && !body->resting && late > 0.0) {
+        double flight = fmin(late, 2.0 * body->velocity / body->gravity);
+        body->height = flight * (body->velocity - 0.5 * body->gravity * flight);
+        body->velocity -= body->gravity * flight;
+        if (flight == late)
+            break;
+        late -= flight;
+        status = bounce(fmu);
+    }
+    return status;
+}
+
 static fmi3Status update(struct fmu *fmu, bool *states_changed)
 {
     struct falling_body *body = (struct falling_body *)fmu->numbers;
     *states_changed = !body->resting && body->height <= TOUCH && body->velocity < 0.0;
-    return *states_changed ? bounce(fmu) : fmi3OK;
+    return *states_changed ? bounce_late(fmu) : fmi3OK;
 }
 
-static void completed(void *numbers)
+/* Whether A is below the touch without its root having been found. */
+static bool completed(void *numbers)
 {
-    (void)numbers;
+    const struct falling_body *body = numbers;
+    return !body->resting && body->height < -TOUCH && body->velocity < 0.0;
 }
 
 /* The root of h + v t - g t^2/2, by the formula that loses no digits. */

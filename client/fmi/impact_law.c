@@ -210,11 +210,16 @@ static bool touches(const struct impact_law *law)
 }
 
 /* Once the bodies have separated, another impact may begin. */
-static void completed(void *numbers)
+static void rearm(struct impact_law *law)
 {
-    struct impact_law *law = numbers;
     if (law->gap > TOUCH || current_gap_rate(law) >= 0.0)
         law->waits = 0;
+}
+
+static bool completed(void *numbers)
+{
+    rearm(numbers);
+    return false;
 }
 
 /* Answers an impact that has begun. */
@@ -222,7 +227,7 @@ static fmi3Status answer(struct fmu *fmu)
 {
     struct impact_law *law = (struct impact_law *)fmu->numbers;
     double gap_rate = current_gap_rate(law);
-    completed(law);
+    rearm(law);
     if (!touches(law))
         return fmi3OK;
 
@@ -288,7 +293,7 @@ static fmi3Status update(struct fmu *fmu, bool *states_changed)
 static fmi3Status step(struct fmu *fmu, double end, struct model_step *outcome)
 {
     struct impact_law *law = (struct impact_law *)fmu->numbers;
-    completed(law);
+    rearm(law);
     outcome->event = fmu->event_mode_used && touches(law);
     fmi3Status status = fmu->event_mode_used ? fmi3OK : answer(fmu);
     if (status == fmi3OK)

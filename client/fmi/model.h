@@ -33,8 +33,8 @@ struct model {
     void (*refresh)(void *numbers);
     /* changes discrete variables, and tells whether continuous states changed with them */
     fmi3Status (*update)(struct fmu *fmu, bool *states_changed);
-    /* after a step of the importer's integrator */
-    void (*completed)(void *numbers);
+    /* after a step of the importer's integrator; whether an event was missed in it */
+    bool (*completed)(void *numbers);
     /* goes on to that time of Co-Simulation, and handles events on the way; but where the importer
      * uses event mode it stops early at one, if allowed, and leaves those at the end to `update` */
     fmi3Status (*step)(struct fmu *fmu, double end, struct model_step *outcome);
