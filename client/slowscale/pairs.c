@@ -53,6 +53,7 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
             pair = add(slow);
         if (!pair)
             return false;
+        pair->gap_before = pair->contact.gap;
         pair->contact = contacts[i];
         pair->seen = true;
     }
@@ -78,7 +79,11 @@ void pairs_observe(struct percuss_slow *slow, size_t count,
         if (!(now > pair->when)) /* always, if that is unknown */
             continue;
         pair->observed = true;
-        pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - pair->when);
+        double step = now - pair->when;
+        pair->acceleration = (gap_rate[i] - pair->gap_rate) / step;
+        /* a parabola's chord has the mean rate */
+        double chord = (contacts[i].gap - pair->gap_before) / step;
+        pair->lag = (chord - 0.5 * (gap_rate[i] + pair->gap_rate)) / pair->acceleration;
     }
 }
 

@@ -27,6 +27,8 @@ struct pair {
     bool lies;           /* touched and did not approach as an impact at the end of the last call */
     bool observed;       /* at two calls, so that its acceleration is known: */
     double acceleration; /* m/s^2, of the gap in the last step without an impulse */
+    double gap_before;   /* m: at the end of the last call */
+    double lag;          /* s: how old its rates are for the way that the gap then went */
     double had;          /* m/s: approach then, if it lay above the touch */
     bool rests;          /* was slow then as well */
 };

@@ -270,6 +270,26 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
     return PERCUSS_RESULT_OK;
 }
 
+/* Tells of velocities that hold at another time than they are said to, where a touch within the
+ * step is found by them. */
+static void check_lag(const struct percuss_slow *slow, struct group *group, double now)
+{
+    double step = now - slow->time, stated = slow->config.velocity_lag;
+    for (size_t i = 0; now - group->start > NEGLIGIBLE * step && i < group->count; i++) {
+        const struct pair *pair = pairs_find(slow, &group->contacts[i]);
+        if (!pair || !pair->observed || !(fabs(pair->lag - stated) > 0.25 * step))
+            continue;
+        if (!(fabs(pair->acceleration * pair->lag) > NEGLIGIBLE * fabs(group->gap_rate[i])))
+            continue;
+        group_note(group,
+                   "the gap of %s and %s moved as if its rates were %.3g s old: "
+                   "config.velocity_lag is %g s",
+                   slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], pair->lag,
+                   stated);
+        return;
+    }
+}
+
 /* Revokes and asks. A failure leaves all as it was. */
 static enum percuss_result prepare(struct percuss_slow *slow, struct group *group,
                                    struct percuss_request *request, double now)
@@ -288,6 +308,8 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
         result = group_probe_oblique(slow, group);
     if (!result)
         result = touch_go_back(slow, group, now);
+    if (!result)
+        check_lag(slow, group, now);
     if (!result)
         result = find_impulses(slow, group, request);
     if (!result)

@@ -75,7 +75,8 @@ struct percuss_slow_config {
      * velocities; moment in N s^2: an impulse times how late it is applied, < 0 if early. The
      * impulses of ringing bodies often lie before the instant of the question, and a step may end
      * behind one. NULL: they are applied late without it, which takes energy, and TOTAL is refused
-     * where the gap accelerates. False: failure, as of the engine's callbacks. */
+     * where the gap accelerates; touches within a step are taken as at its end. False: failure, as
+     * of the engine's callbacks. */
     bool (*move)(void *context, const struct percuss_slow_contact *contact, double moment);
     /* Beside `move`, or instead: as `apply_vector` is to `apply`. Without it, positions along the
      * surface lack what friction did between an impulse's time and the one when it is applied. */

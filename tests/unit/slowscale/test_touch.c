@@ -16,6 +16,7 @@ struct drop {
     double step, time, place[2], velocity[2], pull[2];
     size_t touches;
     double first; /* s: the first touch */
+    char message[512];
 };
 
 static bool drop_probe(void *context, struct percuss_slow_view *view)
@@ -54,6 +55,7 @@ static void drop_report(void *context, const struct percuss_slow_report *report)
     if (!drop->touches++)
         drop->first = report->time;
     assert_true(fabs(report->contacts[0].gap) <= 1e-9); /* asked about at the touch */
+    snprintf(drop->message, sizeof drop->message, "%s", report->message);
 }
 
 static void integrate(struct drop *drop)
@@ -82,7 +84,8 @@ static double energy(const struct drop *drop)
     return mass * (0.5 * rate * rate + drop->pull[1] * drop->place[1]);
 }
 
-static struct percuss_slow *drop_start(struct drop *drop, double restitution, bool moves)
+static struct percuss_slow *drop_start_lagging(struct drop *drop, double restitution, bool moves,
+                                               double lag)
 {
     static const struct percuss_slow_body names[THINGS] = {{.id = "ball"},
                                                            {.id = "floor", .fixed = true}};
@@ -93,12 +96,17 @@ static struct percuss_slow *drop_start(struct drop *drop, double restitution, bo
     config.engine = (struct percuss_slow_engine){
         .context = drop, .probe = drop_probe, .apply = drop_apply, .now = drop_now};
     config.move = moves ? drop_move : NULL;
-    config.velocity_lag = lag_of(drop);
+    config.velocity_lag = lag;
     config.restitution = restitution;
     config.report = moves ? drop_report : NULL;
     config.report_context = drop;
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_OK);
     return slow;
+}
+
+static struct percuss_slow *drop_start(struct drop *drop, double restitution, bool moves)
+{
+    return drop_start_lagging(drop, restitution, moves, lag_of(drop));
 }
 
 static void go_on(struct drop *drop, struct percuss_slow *slow, double stated)
@@ -133,6 +141,7 @@ static void bounce(enum integrator integrator, double flights, bool stated)
     double since = fmod(drop.time, flight);
     near(drop.place[1], since * (speed - 0.5 * gravity * since), 1e-9);
     near(drop.first, flight, 1e-10);
+    assert_string_equal(drop.message, "");
     /* along the floor nothing happens */
     double path = drop.velocity[0] - drop.pull[0] * lag_of(&drop);
     near(path, 2.0 - 0.3 * (drop.time + lag_of(&drop)), 1e-12);
@@ -150,6 +159,21 @@ static void a_ball_bounces_at_its_touches_whatever_the_steps(void **state)
             bounce(SYMPLECTIC, flights[i], stated);
             bounce(EXPLICIT, flights[i], stated);
         }
+}
+
+/* A lag that is not stated costs g h of speed at each bounce, and is told of. */
+static void an_unstated_lag_is_told(void **state)
+{
+    (void)state;
+    struct drop drop = {
+        .integrator = SYMPLECTIC, .step = 0.01, .place = {0.0, 0.05}, .pull = {0.0, gravity}};
+    struct percuss_slow *slow = drop_start_lagging(&drop, 1.0, true, 0.0);
+    while (drop.touches < 1)
+        go_on(&drop, slow, -gravity);
+    assert_string_equal(drop.message,
+                        "the gap of ball and floor moved as if its rates were 0.005 s "
+                        "old: config.velocity_lag is 0 s");
+    percuss_slow_free(slow);
 }
 
 /* What it is for: the energy left after one bounce of a ball with e = 1 and four steps a flight. */
@@ -285,6 +309,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball_bounces_at_its_touches_whatever_the_steps),
+        cmocka_unit_test(an_unstated_lag_is_told),
         cmocka_unit_test(without_move_the_steps_take_energy),
         cmocka_unit_test(an_unknown_acceleration_is_not_guessed),
         cmocka_unit_test(touches_within_a_step_come_in_their_order),
