@@ -202,7 +202,7 @@ static void watch(const struct manner *manner)
     drop_free(drop);
 }
 
-static const double steps[] = {0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3};
+static const double steps[] = {0.4e-3, 1e-3, 2.5e-3, 5e-3};
 static const double coefficients[] = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
 
 static void a_bouncing_ball_never_falls_through_the_ground(void **state)
