@@ -277,9 +277,9 @@ static void check_lag(const struct percuss_slow *slow, struct group *group, doub
     double step = now - slow->time, stated = slow->config.velocity_lag;
     for (size_t i = 0; now - group->start > NEGLIGIBLE * step && i < group->count; i++) {
         const struct pair *pair = pairs_find(slow, &group->contacts[i]);
-        if (!pair || !pair->observed || !(fabs(pair->lag - stated) > 0.25 * step))
-            continue;
-        if (!(fabs(pair->acceleration * pair->lag) > NEGLIGIBLE * fabs(group->gap_rate[i])))
+        double unsaid = pair && pair->observed ? pair->lag - stated : 0.0;
+        double wrong = pair ? fabs(pair->acceleration * unsaid) : 0.0; /* m/s */
+        if (!(fabs(unsaid) > 0.25 * step && wrong > NEGLIGIBLE * fabs(group->gap_rate[i])))
             continue;
         group_note(group,
                    "the gap of %s and %s moved as if its rates were %.3g s old: "
