@@ -17,6 +17,8 @@
 #ifndef PERCUSS_MODEL_BOUSSINESQ3_H
 #define PERCUSS_MODEL_BOUSSINESQ3_H
 
+#include <stddef.h>
+
 struct boussinesq3 {
     double point[3], inward[3]; /* m, unit */
     double young, poisson;
@@ -45,6 +47,14 @@ void cerruti3_field(const struct boussinesq3 *load, const double along[3], const
 void cerruti3_added_stress(const struct boussinesq3 *load, const double along[3], const double x[3],
                            double stress[6]);
 double cerruti3_added_displacement(const struct boussinesq3 *load);
+
+/* The same fields of three loads at one place, [0] along the inward normal and [1], [2] along two
+ * directions of the surface, at `count` points at once: displacements u[point][load] (m/N), and
+ * tractions t[point][load] on areas (m^2 as vectors, so that t is of N/N) where both are not NULL.
+ * What cerruti3_field and boussinesq3_field say but for rounding, in a fifth of the time. */
+void boussinesq3_fields(const struct boussinesq3 *load, const double along[2][3], size_t count,
+                        const double (*x)[3], const double (*areas)[3], double (*u)[3][3],
+                        double (*t)[3][3]);
 
 /* On a curved surface the tractions of Cerruti's field, times its displacements, leave a
  * flexibility along the surface that changes by S ln(r'/r) from the radius r' to r: the integral of

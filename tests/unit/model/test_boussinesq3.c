@@ -1,8 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another
- * frame; stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
+/* Mirrors service/core/model/boussinesq3.c, boussinesq3_fields.c: the axisymmetric field of
+ * fe/boussinesq.c in another frame; stress from displacement by Hooke's law, in equilibrium, with
+ * and without a reach. */
 #include <string.h>
 
 #include "check.h"
@@ -199,6 +200,44 @@ static void reach_ends_the_singular_line(void **state)
     near_relative(dot3(near_point, ALONG), cerruti3_added_displacement(&load), 1e-3);
 }
 
+/* Three loads at once are those one by one: two ways to write one formula, but for rounding. */
+static void three_loads_at_many_points(void **state)
+{
+    (void)state;
+    enum { POINTS = COUNT(PLACES) }; /* one more than go together */
+    static const double REACHES[3] = {INFINITY, 0.6, 0.2};
+    double x[POINTS][3], areas[POINTS][3], u[POINTS][3][3], t[POINTS][3][3], alone[POINTS][3][3];
+    double along[2][3];
+    memcpy(along[0], ALONG, sizeof along[0]);
+    cross3(LOAD.inward, ALONG, along[1]);
+    for (int p = 0; p < POINTS; p++) {
+        place(PLACES[p][0], PLACES[p][1], x[p]);
+        add_scaled3(0.4 - 0.1 * p, along[1], x[p]);
+        for (int k = 0; k < 3; k++)
+            areas[p][k] = 0.7 - 0.3 * k + 0.2 * p;
+    }
+    for (size_t r = 0; r < COUNT(REACHES); r++) {
+        struct boussinesq3 load = LOAD;
+        load.reach = REACHES[r];
+        boussinesq3_fields(&load, along, POINTS, x, areas, u, t);
+        boussinesq3_fields(&load, along, POINTS, x, NULL, alone, NULL);
+        assert_memory_equal(alone, u, sizeof u);
+        for (int p = 0; p < POINTS; p++)
+            for (int j = 0; j < 3; j++) {
+                double expected[3], stress[6], traction[3];
+                if (j == 0)
+                    boussinesq3_field(&load, x[p], expected, stress);
+                else
+                    cerruti3_field(&load, along[j - 1], x[p], expected, stress);
+                boussinesq3_traction(stress, areas[p], traction);
+                for (int k = 0; k < 3; k++) {
+                    near_scaled(u[p][j][k], expected[k], norm3(expected), 1e-13);
+                    near_scaled(t[p][j][k], traction[k], norm3(traction), 1e-13);
+                }
+            }
+    }
+}
+
 /* The rate of a flexibility along a bent surface, which loses the integral of tractions times
  * displacements from a radius on: of both fields on a ring of 1e-4 of the radii of curvature, to
  * that order. */
@@ -267,6 +306,7 @@ int main(void)
         cmocka_unit_test(stress_follows_displacement_in_equilibrium),
         cmocka_unit_test(along_the_surface),
         cmocka_unit_test(reach_ends_the_singular_line),
+        cmocka_unit_test(three_loads_at_many_points),
         cmocka_unit_test(bent_surfaces_leave_a_logarithm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
