@@ -27,38 +27,62 @@ struct surface_sum {
     int count; /* nodes of the face */
     const double (*nodes)[3];
     bool in_plane; /* the half-space's own tractions are zero */
-    double forces[FLEXIBILITY_LOADS][FACE_MOST_NODES][3]; /* integral of N^T t */
+    double forces[FACE_MOST_NODES][FLEXIBILITY_LOADS][3]; /* integral of N^T t */
     double energy[FLEXIBILITY_LOADS][FLEXIBILITY_LOADS];  /* of t.u */
 };
 
-/* Adds a point with its area: the fields' tractions t, and their work on the displacements u. */
-static void surface_add(struct surface_sum *sum, const double x[3], const double area[3],
-                        const double *force_shape, double energy_weight)
+/* Points of a face with their areas. */
+struct surface_points {
+    size_t count;
+    const double (*x)[3], (*areas)[3];
+    const double (*shapes)[FACE_MOST_NODES];
+};
+
+/* Fields' displacements and tractions at points of a face. */
+static void surface_fields(const struct surface_sum *sum, const struct surface_points *points,
+                           double (*u)[FLEXIBILITY_LOADS][3], double (*t)[FLEXIBILITY_LOADS][3])
 {
     const struct flexibility_place *place = sum->place;
-    double t[FLEXIBILITY_LOADS][3], u[FLEXIBILITY_LOADS][3];
-    for (int i = 0; i < place->loads; i++) {
-        double stress[6];
-        flexibility_place_field(place, i, x, u[i], sum->in_plane ? NULL : stress);
-        if (sum->in_plane)
-            flexibility_place_added_stress(place, i, x, stress);
-        boussinesq3_traction(stress, area, t[i]);
-        for (int n = 0; force_shape && n < sum->count; n++)
-            add_scaled3(force_shape[n], t[i], sum->forces[i][n]);
-    }
-    for (int i = 0; energy_weight != 0.0 && i < place->loads; i++)
-        for (int j = 0; j < place->loads; j++)
-            sum->energy[i][j] += energy_weight * dot3(t[i], u[j]);
+    boussinesq3_fields(&place->load, place->along, points->count, points->x, points->areas, u,
+                       sum->in_plane ? NULL : t);
+    for (size_t p = 0; sum->in_plane && p < points->count; p++)
+        for (int i = 0; i < FLEXIBILITY_LOADS; i++) {
+            double stress[6];
+            flexibility_place_added_stress(place, i, points->x[p], stress);
+            boussinesq3_traction(stress, points->areas[p], t[p][i]);
+        }
 }
 
-static void surface_add_point(struct surface_sum *sum, const double at[2], double weight,
-                              bool with_force, bool with_energy)
+/* Adds so many points, at most SURFACE_RULE_MOST: the fields' tractions t, and their work on the
+ * displacements u. */
+static void surface_add(struct surface_sum *sum, const struct surface_points *points,
+                        bool with_force, bool with_energy)
 {
-    double x[3], area[3], shape[FACE_MOST_NODES];
-    facet_look(sum->count, sum->nodes, at[0], at[1], shape, x, area);
-    for (int n = 0; n < sum->count; n++)
-        shape[n] *= weight;
-    surface_add(sum, x, area, with_force ? shape : NULL, with_energy ? weight : 0.0);
+    double t[SURFACE_RULE_MOST][FLEXIBILITY_LOADS][3], u[SURFACE_RULE_MOST][FLEXIBILITY_LOADS][3];
+    surface_fields(sum, points, u, t);
+    for (size_t p = 0; with_force && p < points->count; p++)
+        for (int n = 0; n < sum->count; n++)
+            for (int i = 0; i < FLEXIBILITY_LOADS; i++)
+                add_scaled3(points->shapes[p][n], t[p][i], sum->forces[n][i]);
+    for (size_t p = 0; with_energy && p < points->count; p++)
+        for (int i = 0; i < FLEXIBILITY_LOADS; i++)
+            for (int j = 0; j < FLEXIBILITY_LOADS; j++)
+                sum->energy[i][j] += dot3(t[p][i], u[p][j]);
+}
+
+/* The same of points at local coordinates of the face. */
+static void surface_add_at(struct surface_sum *sum, size_t count, const double (*at)[2],
+                           const double *weights, bool with_force, bool with_energy)
+{
+    double x[SURFACE_RULE_POINTS][3], areas[SURFACE_RULE_POINTS][3];
+    double shapes[SURFACE_RULE_POINTS][FACE_MOST_NODES];
+    for (size_t p = 0; p < count; p++) {
+        facet_look(sum->count, sum->nodes, at[p][0], at[p][1], shapes[p], x[p], areas[p]);
+        scale3(weights[p], areas[p], areas[p]);
+    }
+    const struct surface_points points = {count, (const double(*)[3])x, (const double(*)[3])areas,
+                                          (const double(*)[FACE_MOST_NODES])shapes};
+    surface_add(sum, &points, with_force, with_energy);
 }
 
 /* a triangle of a face, in local coordinates and in space */
@@ -112,8 +136,7 @@ static void surface_add_part(struct surface_sum *sum, const struct surface_part 
     /* far: by the rule */
     double at[SURFACE_RULE_POINTS][2], weights[SURFACE_RULE_POINTS];
     surface_rule_place(&part->local, at, weights);
-    for (int p = 0; p < SURFACE_RULE_POINTS; p++)
-        surface_add_point(sum, at[p], weights[p], true, true);
+    surface_add_at(sum, SURFACE_RULE_POINTS, (const double(*)[2])at, weights, true, true);
 }
 
 static void surface_add_triangle(struct surface_sum *sum, const struct surface_triangle *triangle)
@@ -151,7 +174,7 @@ static void gauss_points(int count, double *at, double *weights)
 static void surface_add_fan(struct surface_sum *sum)
 {
     /* points of Gauss around the place and along the radius */
-    enum { AROUND = 40, ALONG = 12 };
+    enum { AROUND = 40, ALONG = SURFACE_RULE_POINTS };
     double around[AROUND], around_weights[AROUND], along[ALONG], along_weights[ALONG];
     gauss_points(AROUND, around, around_weights);
     gauss_points(ALONG, along, along_weights);
@@ -182,39 +205,45 @@ static void surface_add_fan(struct surface_sum *sum)
             add_scaled3(way[1], dv, radius);
             double least = log(sum->place->cut / norm3(radius));
             /* the force evenly in s, then the energy evenly in ln s */
+            double even[ALONG][2], growing[ALONG][2], even_weights[ALONG], growing_weights[ALONG];
             for (int p = 0; p < ALONG; p++) {
-                double s = along[p];
-                const double even[2] = {place[0] + s * way[0], place[1] + s * way[1]};
+                double s = along[p], grown = exp(least * along[p]);
                 double weight = area * around_weights[a] * along_weights[p];
-                surface_add_point(sum, even, weight * s, true, false);
-                s = exp(least * along[p]);
-                const double growing[2] = {place[0] + s * way[0], place[1] + s * way[1]};
-                surface_add_point(sum, growing, -least * weight * s * s, false, true);
+                for (int k = 0; k < 2; k++) {
+                    even[p][k] = place[k] + s * way[k];
+                    growing[p][k] = place[k] + grown * way[k];
+                }
+                even_weights[p] = weight * s;
+                growing_weights[p] = -least * weight * grown * grown;
             }
+            surface_add_at(sum, ALONG, (const double(*)[2])even, even_weights, true, false);
+            surface_add_at(sum, ALONG, (const double(*)[2])growing, growing_weights, false, true);
         }
     }
 }
 
-/* a face in or near the place: nodes in the tangent plane have no tractions of the half-space */
+/* Whether a face lies in the place's tangent plane, as plane as flexibility_place_make wants one to
+ * be. */
+static bool is_in_plane(const struct surface_rule *rule, size_t face,
+                        const struct flexibility_place *place)
+{
+    const struct surface_face *f = &rule->surface->faces[face];
+    for (size_t n = 0; n < f->count; n++) {
+        double offset[3];
+        sub3(rule->mesh->points[f->nodes[n]], place->load.point, offset);
+        if (fabs(dot3(offset, place->load.inward)) > 1e-5 * rule->radii[face])
+            return false;
+    }
+    return true;
+}
+
+/* a face in or near the place */
 static void surface_add_near(const struct surface_rule *rule, size_t face, struct surface_sum *sum)
 {
-    const struct flexibility_place *place = sum->place;
     double nodes[FACE_MOST_NODES][3];
     surface_rule_nodes(rule, face, nodes);
     sum->nodes = nodes;
-    sum->in_plane = true;
-    for (int n = 0; n < sum->count; n++) {
-        double offset[3];
-        sub3(nodes[n], place->load.point, offset);
-        /* as plane as flexibility_place_make wants a face to be */
-        if (fabs(dot3(offset, place->load.inward)) > 1e-5 * rule->radii[face])
-            sum->in_plane = false;
-    }
-    if (sum->in_plane && isinf(place->load.reach)) {
-        sum->nodes = NULL; /* free of tractions */
-        return;
-    }
-    if (face == place->face && !place->flat) {
+    if (face == sum->place->face && !sum->place->flat) {
         surface_add_fan(sum);
     } else {
         struct surface_triangle triangles[2];
@@ -227,9 +256,10 @@ static void surface_add_near(const struct surface_rule *rule, size_t face, struc
 
 static void surface_add_far(const struct surface_rule *rule, size_t face, struct surface_sum *sum)
 {
-    for (size_t i = rule->first[face]; i < rule->first[face + 1]; i++)
-        surface_add(sum, rule->points[i], rule->areas[i],
-                    rule->shapes[sum->count][i - rule->first[face]], 1.0);
+    size_t first = rule->first[face];
+    const struct surface_points points = {rule->first[face + 1] - first, rule->points + first,
+                                          rule->areas + first, rule->shapes[sum->count]};
+    surface_add(sum, &points, true, true);
 }
 
 void field_integrals_surface(const struct surface_rule *rule, const struct flexibility_place *place,
@@ -240,13 +270,18 @@ void field_integrals_surface(const struct surface_rule *rule, const struct flexi
         struct surface_sum sum = {.place = place, .count = face->count};
         double offset[3];
         sub3(rule->centres[f], place->load.point, offset);
-        if (f == place->face || norm3(offset) < SURFACE_FAR * rule->radii[f])
+        bool near_it = f == place->face || norm3(offset) < SURFACE_FAR * rule->radii[f];
+        bool in_plane = is_in_plane(rule, f, place);
+        if (in_plane && isinf(place->load.reach))
+            continue; /* free of tractions */
+        sum.in_plane = in_plane && near_it;
+        if (near_it)
             surface_add_near(rule, f, &sum);
         else
             surface_add_far(rule, f, &sum);
         for (int i = 0; i < place->loads; i++) {
             for (int k = 0; k < sum.count; k++)
-                add_scaled3(-1.0, sum.forces[i][k], forces + (size_t)i * n + 3 * face->nodes[k]);
+                add_scaled3(-1.0, sum.forces[k][i], forces + (size_t)i * n + 3 * face->nodes[k]);
             for (int j = 0; j < place->loads; j++)
                 values[i][j] -= sum.energy[i][j];
         }
@@ -262,6 +297,9 @@ enum { VOLUME_SPLITS = 2 };
 /* Beyond so many radii the displacements at the nodes stand for all in an element: its shape
  * functions leave (radius / distance)^3 of them and less. */
 static const double VOLUME_NODES = 6.0;
+/* Of the place's face: a node so near to the place, where the field is infinite, stays at rest, and
+ * the integrals of the elements about it make up for that; rounding would be as large otherwise. */
+static const double UNDER = 1e-6;
 static const int STRAIN_ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int STRAIN_COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
@@ -345,41 +383,46 @@ no_memory:
 
 /* ---- integrals over the volume: mass ---- */
 
-/* sums for one place and element */
+/* sums for one place and element: the integral of N^T u */
 struct mass_sum {
     const struct flexibility_place *place;
     const struct element_rule *rule;
     enum element_type type;
     double (*nodes)[3];
-    double sums[FLEXIBILITY_LOADS][ELEMENT_MOST_NODES][3];
+    double sums[ELEMENT_MOST_NODES][FLEXIBILITY_LOADS][3];
 };
 
-static void add_mass_point(struct mass_sum *sum, const double x[3], double volume,
-                           const double *shape)
+/* Adds all points of an element's rule, or of a piece's, each with its volume. */
+static void add_mass_points(struct mass_sum *sum, const double (*x)[3], const double *volumes,
+                            const double (*shapes)[ELEMENT_MOST_NODES])
 {
-    for (int i = 0; i < sum->place->loads; i++) {
-        double u[3];
-        flexibility_place_field(sum->place, i, x, u, NULL);
+    double u[ELEMENT_MOST_POINTS][FLEXIBILITY_LOADS][3];
+    boussinesq3_fields(&sum->place->load, sum->place->along, sum->rule->point_count, x, NULL, u,
+                       NULL);
+    for (size_t p = 0; p < sum->rule->point_count; p++)
         for (size_t n = 0; n < sum->rule->node_count; n++)
-            add_scaled3(volume * shape[n], u, sum->sums[i][n]);
-    }
+            for (int i = 0; i < FLEXIBILITY_LOADS; i++)
+                add_scaled3(volumes[p] * shapes[p][n], u[p][i], sum->sums[n][i]);
 }
 
 /* pieces are split while they are near the place; `scale`: their volume over the element's */
 static void add_piece(struct mass_sum *sum, const struct piece *piece, double scale, int splits)
 {
     const struct element_rule *rule = sum->rule;
-    struct element_point here[ELEMENT_MOST_POINTS];
+    double x[ELEMENT_MOST_POINTS][3], volumes[ELEMENT_MOST_POINTS];
     double shapes[ELEMENT_MOST_POINTS][ELEMENT_MOST_NODES], nearest = INFINITY, volume = 0.0;
     /* points of the piece, its volume, and the nearest to the place */
     for (size_t p = 0; p < rule->point_count; p++) {
         double natural[3], gradient[ELEMENT_MOST_NODES][3], offset[3];
+        struct element_point here;
         piece_point(sum->type, piece, rule->at[p], natural);
         element_shapes(sum->type, natural, shapes[p], gradient);
-        element_map(rule->node_count, sum->nodes, shapes[p], gradient, &here[p]);
-        sub3(here[p].position, sum->place->load.point, offset);
+        element_map(rule->node_count, sum->nodes, shapes[p], gradient, &here);
+        memcpy(x[p], here.position, sizeof x[p]);
+        sub3(x[p], sum->place->load.point, offset);
         nearest = fmin(nearest, norm3(offset));
-        volume += scale * rule->weight[p] * here[p].volume;
+        volumes[p] = scale * rule->weight[p] * here.volume;
+        volume += volumes[p];
     }
     /* near: by eighths */
     if (splits < VOLUME_SPLITS && nearest < VOLUME_FAR * cbrt(volume)) {
@@ -390,38 +433,31 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
         return;
     }
     /* far: by the rule */
-    for (size_t p = 0; p < rule->point_count; p++)
-        add_mass_point(sum, here[p].position, scale * rule->weight[p] * here[p].volume, shapes[p]);
+    add_mass_points(sum, (const double(*)[3])x, volumes,
+                    (const double(*)[ELEMENT_MOST_NODES])shapes);
 }
 
-/* momentum of an element by its own points, in pieces where it is near */
-static void add_near_mass(const struct volume_rule *rule, const struct flexibility_place *place,
-                          size_t element, double distance, double *momenta)
+/* the integral of an element by its own points, in pieces where it is near */
+static void integrate_element(const struct volume_rule *rule, size_t element, double distance,
+                              struct mass_sum *sum)
 {
-    const struct solid_mesh *mesh = rule->mesh;
-    enum element_type type = mesh->types[element];
-    double nodes[ELEMENT_MOST_NODES][3];
-    struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{{0.0}}}};
+    double x[ELEMENT_MOST_POINTS][3], volumes[ELEMENT_MOST_POINTS];
+    size_t first = rule->first[element];
     if (distance < VOLUME_FAR * rule->radii[element]) {
-        element_points(mesh, element, nodes);
-        add_piece(&sum, &WHOLE_PIECE[type], 1.0, 0);
-    } else {
-        size_t first = rule->first[element], end = rule->first[element + 1];
-        for (size_t i = first; i < end; i++)
-            add_mass_point(&sum, rule->points[i], rule->points[i][3], sum.rule->shape[i - first]);
+        element_points(rule->mesh, element, sum->nodes);
+        add_piece(sum, &WHOLE_PIECE[sum->type], 1.0, 0);
+        return;
     }
-    /* to the nodes, as momentum */
-    double density = mesh->part[mesh->parts[element]].material.density;
-    for (int i = 0; i < place->loads; i++)
-        for (size_t n = 0; n < sum.rule->node_count; n++)
-            add_scaled3(density, sum.sums[i][n],
-                        momenta + 3 * ((size_t)i * mesh->node_count +
-                                       mesh->nodes[mesh->first[element] + n]));
+    for (size_t p = 0; p < sum->rule->point_count; p++) {
+        memcpy(x[p], rule->points[first + p], sizeof x[p]);
+        volumes[p] = rule->points[first + p][3];
+    }
+    add_mass_points(sum, (const double(*)[3])x, volumes, sum->rule->shape);
 }
 
-/* momentum of an element by its nodes' displacements, [3 node_count] */
-static void add_far_mass(const struct volume_rule *rule, size_t element,
-                         const double *displacements, double *momentum)
+/* Takes off an element's masses times its nodes' displacements of one load, [3 node_count]. */
+static void take_off_masses(const struct volume_rule *rule, size_t element,
+                            const double *displacements, double *momentum)
 {
     const size_t *nodes = rule->mesh->nodes + rule->mesh->first[element];
     const double *mass = rule->masses + rule->first_mass[element];
@@ -436,45 +472,76 @@ static void add_far_mass(const struct volume_rule *rule, size_t element,
         add_scaled3(*mass++, u[i], sums[i]);
     }
     for (size_t i = 0; i < count; i++)
-        add_scaled3(1.0, sums[i], momentum + 3 * nodes[i]);
+        add_scaled3(-1.0, sums[i], momentum + 3 * nodes[i]);
 }
 
-/* Masses on nodes, by the nodes' displacements ([3 node_count]); not those so close to the place
- * (flexibility_place_massive) that the field has no displacement of a rigid mass there. */
-static void add_nodes_mass(const struct solid_mesh *mesh, const struct flexibility_place *place,
-                           const double *displacements, double *momentum)
+/* What an element near the place has beyond its masses times its nodes' displacements. */
+static void add_near_mass(const struct volume_rule *rule, const struct flexibility_place *place,
+                          size_t element, double distance, const double *nodal, double *beyond)
 {
-    for (size_t i = 0; i < mesh->mass_count; i++) {
-        size_t at = 3 * mesh->masses[i].node;
-        if (!flexibility_place_beside(place, mesh->points[mesh->masses[i].node]))
-            add_scaled3(mesh->masses[i].mass, displacements + at, momentum + at);
+    const struct solid_mesh *mesh = rule->mesh;
+    enum element_type type = mesh->types[element];
+    double nodes[ELEMENT_MOST_NODES][3];
+    double density = mesh->part[mesh->parts[element]].material.density;
+    struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{{0.0}}}};
+    integrate_element(rule, element, distance, &sum);
+    for (size_t i = 0; i < (size_t)place->loads; i++) {
+        double *momentum = beyond + 3 * i * mesh->node_count;
+        take_off_masses(rule, element, nodal + 3 * i * mesh->node_count, momentum);
+        for (size_t n = 0; n < sum.rule->node_count; n++)
+            add_scaled3(density, sum.sums[n][i],
+                        momentum + 3 * mesh->nodes[mesh->first[element] + n]);
+    }
+}
+
+/* Masses on nodes so close to the place (flexibility_place_massive) that the field has no
+ * displacement of a rigid mass there are left out. */
+static void leave_out_masses(const struct solid_mesh *mesh, const struct flexibility_place *place,
+                             const double *nodal, double *beyond)
+{
+    for (size_t i = 0; i < mesh->mass_count; i++)
+        for (size_t c = 0; c < (size_t)place->loads; c++) {
+            size_t at = 3 * (c * mesh->node_count + mesh->masses[i].node);
+            if (flexibility_place_beside(place, mesh->points[mesh->masses[i].node]))
+                add_scaled3(-mesh->masses[i].mass, nodal + at, beyond + at);
+        }
+}
+
+/* Displacements of all nodes. */
+static void move_nodes(const struct solid_mesh *mesh, const struct flexibility_place *place,
+                       double *nodal)
+{
+    enum { TOGETHER = 64 };
+    double u[TOGETHER][FLEXIBILITY_LOADS][3];
+    for (size_t first = 0; first < mesh->node_count; first += TOGETHER) {
+        size_t left = mesh->node_count - first, count = left < TOGETHER ? left : TOGETHER;
+        const double(*x)[3] = (const double(*)[3])mesh->points + first;
+        boussinesq3_fields(&place->load, place->along, count, x, NULL, u, NULL);
+        for (size_t p = 0; p < count; p++) {
+            double offset[3];
+            sub3(x[p], place->load.point, offset);
+            bool under = norm3(offset) < UNDER * place->element;
+            for (size_t i = 0; i < (size_t)place->loads; i++)
+                for (int k = 0; k < 3; k++)
+                    nodal[3 * (i * mesh->node_count + first + p) + k] = under ? 0.0 : u[p][i][k];
+        }
     }
 }
 
 void field_integrals_mass(const struct volume_rule *rule, const struct flexibility_place *place,
-                          double *momenta, double *spare)
+                          double *nodal, double *beyond)
 {
     const struct solid_mesh *mesh = rule->mesh;
-    size_t n = 3 * mesh->node_count;
-    for (int i = 0; i < place->loads; i++) {
-        memset(momenta + (size_t)i * n, 0, n * sizeof *momenta);
-        for (size_t node = 0; node < mesh->node_count; node++)
-            flexibility_place_field(place, i, mesh->points[node], spare + (size_t)i * n + 3 * node,
-                                    NULL);
-    }
+    memset(beyond, 0, 3 * (size_t)place->loads * mesh->node_count * sizeof *beyond);
+    move_nodes(mesh, place, nodal);
     for (size_t e = 0; e < mesh->element_count; e++) {
         double offset[3];
         sub3(rule->centres[e], place->load.point, offset);
         double distance = norm3(offset);
-        if (distance < VOLUME_NODES * rule->radii[e]) {
-            add_near_mass(rule, place, e, distance, momenta);
-            continue;
-        }
-        for (size_t i = 0; i < (size_t)place->loads; i++)
-            add_far_mass(rule, e, spare + i * n, momenta + i * n);
+        if (distance < VOLUME_NODES * rule->radii[e])
+            add_near_mass(rule, place, e, distance, nodal, beyond);
     }
-    for (size_t i = 0; i < (size_t)place->loads; i++)
-        add_nodes_mass(mesh, place, spare + i * n, momenta + i * n);
+    leave_out_masses(mesh, place, nodal, beyond);
 }
 
 /* ---- integrals over the volume: stiffness ---- */
@@ -557,19 +624,18 @@ static bool has_held(const struct solid_mesh *mesh, size_t element, const bool *
     return false;
 }
 
-/* Forces and mass of one point of an element that a load shifts; its strain and stress there. */
-static void add_shift(const struct solid_mesh *mesh, size_t element, const double *shape,
+/* Forces of one point of an element that a load shifts; its strain and stress there. */
+static void add_shift(const struct solid_mesh *mesh, size_t element,
                       const struct element_point *here, const double *shifts, double *force,
-                      double *momentum, double strain[6], double stress[6])
+                      double strain[6], double stress[6])
 {
     const struct material *material = &mesh->part[mesh->parts[element]].material;
     const size_t *nodes = mesh->nodes + mesh->first[element];
     size_t count = mesh->first[element + 1] - mesh->first[element];
-    double shift[3] = {0.0}, against[6];
+    double against[6];
     memset(strain, 0, 6 * sizeof *strain);
     for (size_t n = 0; n < count; n++) {
         const double *u = shifts + 3 * nodes[n], *slope = here->gradient[n];
-        add_scaled3(shape[n], u, shift);
         for (int k = 0; k < 6; k++)
             strain[k] += 0.5 * (slope[STRAIN_ROW[k]] * u[STRAIN_COLUMN[k]] +
                                 slope[STRAIN_COLUMN[k]] * u[STRAIN_ROW[k]]);
@@ -578,13 +644,10 @@ static void add_shift(const struct solid_mesh *mesh, size_t element, const doubl
     for (int k = 0; k < 6; k++)
         against[k] = -stress[k];
     add_stress(mesh, element, here, against, force);
-    for (size_t n = 0; n < count; n++)
-        add_scaled3(material->density * here->volume * shape[n], shift, momentum + 3 * nodes[n]);
 }
 
 void field_integrals_shifts(const struct volume_rule *rule, const bool *held, int loads,
-                            const double *shifts, double *forces, double *momenta,
-                            load_pairs values)
+                            const double *shifts, double *forces, load_pairs values)
 {
     const struct solid_mesh *mesh = rule->mesh;
     size_t all = 3 * mesh->node_count;
@@ -600,8 +663,7 @@ void field_integrals_shifts(const struct volume_rule *rule, const bool *held, in
             element_at(points, p, nodes, &here);
             for (int i = 0; i < loads; i++) {
                 size_t first = all * (size_t)i;
-                add_shift(mesh, e, points->shape[p], &here, shifts + first, forces + first,
-                          momenta + first, strain[i], stress[i]);
+                add_shift(mesh, e, &here, shifts + first, forces + first, strain[i], stress[i]);
             }
             for (int i = 0; i < loads; i++)
                 for (int j = 0; j < loads; j++)

@@ -38,10 +38,12 @@ void volume_rule_free(struct volume_rule *rule);
 void field_integrals_surface(const struct surface_rule *rule, const struct flexibility_place *place,
                              size_t n, double *forces, load_pairs values);
 
-/* Finds the fields' displacements u as mass feels them, the integral of rho N^T u: momenta
- * ([loads][3 node_count], kg m/N). `spare` is as large. */
+/* The fields' displacements u as mass feels them, the integral of rho N^T u, in two parts: u at the
+ * nodes (`nodal`, [loads][3 node_count], m/N), which M, the mesh's mass matrix, makes a momentum
+ * of; and `beyond`, as large, kg m/N, what the integral is beyond that. It is 0 but at elements
+ * near the place, as the shape functions of others hold the field. */
 void field_integrals_mass(const struct volume_rule *rule, const struct flexibility_place *place,
-                          double *momenta, double *spare);
+                          double *nodal, double *beyond);
 
 /* Where other materials than the place's lie, the field's stress there is not the half-space's: D'
  * the place's elasticity, D the part's, e the field's strain. Adds the nodal forces of (D' - D) e
@@ -51,10 +53,8 @@ void field_integrals_parts(const struct volume_rule *rule, const struct flexibil
                            double *forces, load_pairs values);
 
 /* Held nodes are shifted by each load (`shifts`, [loads][3 node_count], zero at all others):
- * subtracts the forces K times shifts from forces, adds the mass M times shifts to momenta, and
- * subtracts the work of the first on the shifts from `values`. */
+ * subtracts the forces K times shifts from forces, and their work on the shifts from `values`. */
 void field_integrals_shifts(const struct volume_rule *rule, const bool *held, int loads,
-                            const double *shifts, double *forces, double *momenta,
-                            load_pairs values);
+                            const double *shifts, double *forces, load_pairs values);
 
 #endif

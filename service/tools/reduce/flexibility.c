@@ -35,9 +35,15 @@ struct flexibility {
     /* of the block that is solved: [FLEXIBILITY_BLOCK][n] */
     double *force, *x, *work, *mass_x;
     double *shifts;   /* of held nodes: w1 */
-    double *products; /* [2][FLEXIBILITY_BLOCK][psi_count] */
+    double *products; /* [FLEXIBILITY_BLOCK][psi_count] */
     double *momenta;  /* [FLEXIBILITY_BLOCK][psi_count]: g */
     struct flexibility_place places[FLEXIBILITY_BLOCK];
+};
+
+/* What is integrated of a place, a column for each load: nodal forces, displacements and momenta
+ * beyond theirs (field_integrals_mass), shifts of held nodes. */
+struct columns {
+    double *forces, *nodal, *beyond, *shifts;
 };
 
 /* of one place: C, without f.x at first, and how far its forces are from balance */
@@ -71,7 +77,7 @@ struct flexibility *flexibility_make(const struct flexibility_body *body)
     f->mass_x = malloc(block * sizeof *f->mass_x);
     f->shifts = malloc(block * sizeof *f->shifts);
     f->momenta = malloc((FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->momenta);
-    f->products = malloc((2 * FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->products);
+    f->products = malloc((FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->products);
     /* rules of integration over surface and volume */
     if (!f->psi || !f->mass_psi || !f->force || !f->x || !f->work || !f->mass_x || !f->shifts ||
         !f->products || !f->momenta || !surface_rule_make(&f->surface, body->mesh, body->surface) ||
@@ -132,54 +138,58 @@ static double displacement_at(const struct flexibility *f, const struct flexibil
     return sum;
 }
 
-/* Held nodes: w1 = -u_B there (into shifts, zero elsewhere) turns f into f - K w1 and g into g +
- * Psi^T M w1, and adds 2 f.w1 - w1.K w1 to C. One column for each load. */
+/* Held nodes: w1 = -u_B there (into shifts, zero elsewhere) turns f into f - K w1, leaves nothing
+ * of u_B at these nodes, and adds 2 f.w1 - w1.K w1 to C. One column for each load. */
 static void hold_nodes(const struct flexibility *f, const struct flexibility_place *place,
-                       double *forces, double *momenta, double *shifts, load_pairs values)
+                       const struct columns *columns, load_pairs values)
 {
     const bool *held = f->body.matrices->held;
     size_t loads = (size_t)place->loads;
+    double *forces = columns->forces, *shifts = columns->shifts;
     memset(shifts, 0, loads * f->n * sizeof *shifts);
     if (!held)
         return;
-    for (size_t c = 0; c < loads; c++)
-        for (size_t i = 0; i < f->n; i += 3) {
-            double *shift = shifts + c * f->n + i;
-            if (!held[i])
-                continue;
-            flexibility_place_field(place, (int)c, f->body.mesh->points[i / 3], shift, NULL);
-            scale3(-1.0, shift, shift);
+    for (size_t i = 0; i < loads * f->n; i++)
+        if (held[i % f->n]) {
+            shifts[i] = -columns->nodal[i];
+            columns->nodal[i] = 0.0;
         }
     for (size_t i = 0; i < loads; i++)
         for (size_t j = 0; j < loads; j++)
             values[i][j] += 2.0 * column_dot(f->n, forces + i * f->n, shifts + j * f->n);
-    field_integrals_shifts(&f->volume, held, place->loads, shifts, forces, momenta, values);
-    for (size_t c = 0; c < loads; c++)
-        for (size_t i = 0; i < f->n; i++)
-            forces[c * f->n + i] = held[i] ? 0.0 : forces[c * f->n + i];
+    field_integrals_shifts(&f->volume, held, place->loads, shifts, forces, values);
+    for (size_t i = 0; i < loads * f->n; i++)
+        forces[i] = held[i % f->n] ? 0.0 : forces[i];
 }
 
-/* integrals of the half-space's fields, a column for each load: nodal forces, the momenta of the
- * mass, shifts of held nodes; C without their parts */
+/* integrals of the half-space's fields; C without the columns' parts */
 static void integrate_field(const struct flexibility *f, const struct flexibility_place *place,
-                            double *forces, double *momenta, double *shifts, load_pairs values)
+                            const struct columns *columns, load_pairs values)
 {
-    memset(forces, 0, (size_t)place->loads * f->n * sizeof *forces);
+    memset(columns->forces, 0, (size_t)place->loads * f->n * sizeof *columns->forces);
     memset(values, 0, sizeof(load_pairs));
     for (int i = 0; i < place->loads; i++)
         values[i][i] = flexibility_place_added(place, i);
-    field_integrals_surface(&f->surface, place, f->n, forces, values);
+    field_integrals_surface(&f->surface, place, f->n, columns->forces, values);
     if (f->body.mesh->part_count > 1)
-        field_integrals_parts(&f->volume, place, forces, values);
-    field_integrals_mass(&f->volume, place, momenta, shifts);
-    hold_nodes(f, place, forces, momenta, shifts, values);
+        field_integrals_parts(&f->volume, place, columns->forces, values);
+    field_integrals_mass(&f->volume, place, columns->nodal, columns->beyond);
+    hold_nodes(f, place, columns, values);
+}
+
+/* Room for a place's columns, the first of which is the block's `first`. The solution comes later
+ * than what is integrated. */
+static struct columns columns_at(const struct flexibility *f, size_t first)
+{
+    size_t at = first * f->n;
+    return (struct columns){f->force + at, f->x + at, f->work + at, f->shifts + at};
 }
 
 void flexibility_integrate(struct flexibility *flexibility, const struct flexibility_place *place)
 {
     load_pairs values;
-    integrate_field(flexibility, place, flexibility->force, flexibility->work, flexibility->shifts,
-                    values);
+    const struct columns columns = columns_at(flexibility, 0);
+    integrate_field(flexibility, place, &columns, values);
 }
 
 /* The modes' part of C of one place, whose columns have the works `own` and the momenta g on them.
@@ -210,16 +220,18 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
     size_t n = f->n, psi_count = f->psi_count, loads = (size_t)f->places[0].loads;
     size_t columns = count * loads;
     struct dense psi = {n, psi_count, f->psi}, mass_psi = {n, psi_count, f->mass_psi};
-    double *own = f->products, *g = own + FLEXIBILITY_BLOCK * psi_count;
+    double *own = f->products, *g = f->momenta;
     for (size_t c = 0; c < count; c++) {
-        size_t first = c * loads * n;
-        integrate_field(f, &f->places[c], f->force + first, f->work + first, f->shifts + first,
-                        terms[c].values);
+        const struct columns at = columns_at(f, c * loads);
+        integrate_field(f, &f->places[c], &at, terms[c].values);
     }
+    /* g = (M Psi)^T u at the nodes, and Psi^T of what is beyond that */
+    dense_products(mass_psi, (struct dense){n, columns, f->x}, g);
+    dense_products(psi, (struct dense){n, columns, f->work}, own);
+    for (size_t i = 0; i < columns * psi_count; i++)
+        g[i] += own[i];
     dense_products(psi, (struct dense){n, columns, f->force}, own);
-    dense_products(psi, (struct dense){n, columns, f->work}, g);
     dense_combine(mass_psi, -1.0, own, 1.0, columns, f->force);
-    memcpy(f->momenta, g, columns * psi_count * sizeof *f->momenta);
     for (size_t c = 0; c < count; c++) {
         size_t first = c * loads * psi_count;
         take_modes(f, &f->places[c], own + first, g + first, &terms[c]);
