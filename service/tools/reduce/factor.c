@@ -9,7 +9,7 @@
 
 /* Numbers of MUMPS's controls, counted from one as in its manual. */
 enum { ERRORS = 1, DIAGNOSTICS = 2, GLOBAL = 3, LEVEL = 4 };
-enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14 };
+enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14, SOLVED_TOGETHER = 27 };
 enum { INITIALISE = -1, FINISH = -2, ANALYSE = 1, FACTOR = 2, SOLVE = 3 };
 enum { GIVEN = 1, SCOTCH = 3 };
 enum { ANY_PROCESS = -987654, OFF = -1 };
@@ -164,6 +164,7 @@ enum percuss_status factor_solve(struct factor *factor, size_t count, double *b,
     for (size_t i = 0; held && i < count * n; i++)
         if (held[i % n])
             b[i] = 0.0;
+    *control(factor, SOLVED_TOGETHER) = (MUMPS_INT)count;
     factor->mumps.rhs = b;
     factor->mumps.nrhs = (MUMPS_INT)count;
     factor->mumps.lrhs = factor->mumps.n;

@@ -238,6 +238,19 @@ static void prepare_columns(struct flexibility *f, size_t count, struct flexibil
     }
 }
 
+/* Adds `factor` a_i.b_j of one place's columns, for each pair of its loads. */
+static void add_pairs(const struct flexibility *f, size_t place, double factor, const double *a,
+                      const double *b, load_pairs pairs)
+{
+    size_t loads = (size_t)f->places[0].loads, first = place * loads * f->n;
+    double products[FLEXIBILITY_LOADS * FLEXIBILITY_LOADS];
+    dense_products((struct dense){f->n, loads, a + first}, (struct dense){f->n, loads, b + first},
+                   products);
+    for (size_t i = 0; i < loads; i++)
+        for (size_t j = 0; j < loads; j++)
+            pairs[i][j] += factor * products[j * loads + i];
+}
+
 /* One step for all columns: (K + s M) y = f + s M x, then x = y. Adds s x.M (y - x) to f.y: its
  * error is then of the square of y's; `works` and `steps` are those two terms, of each pair of a
  * place's loads. Rounding leaves some of Psi in y, which does not grow and does no work, as f has
@@ -246,25 +259,24 @@ static enum percuss_status advance_columns(struct flexibility *f, size_t count, 
                                            load_pairs *steps, struct fault *fault)
 {
     /* (K + s M)^-1 of loads and of the last step */
-    size_t n = f->n, loads = (size_t)f->places[0].loads, columns = count * loads;
+    size_t n = f->n, columns = count * (size_t)f->places[0].loads;
+    double shift = f->body.shift;
     for (size_t i = 0; i < columns * n; i++)
-        f->work[i] = f->force[i] + f->body.shift * f->mass_x[i];
+        f->work[i] = f->force[i] + shift * f->mass_x[i];
     enum percuss_status status = factor_solve(f->body.factor, columns, f->work, fault);
     if (status != PERCUSS_OK)
         return status;
     /* both terms of the work: of the load, and of the step */
-    for (size_t c = 0; c < columns; c++)
-        for (size_t j = 0; j < loads; j++) {
-            const double *y = f->work + (c - c % loads + j) * n;
-            works[c / loads][c % loads][j] = column_dot(n, f->force + c * n, y);
-            steps[c / loads][c % loads][j] = -f->body.shift * column_dot(n, f->mass_x + c * n, y);
-        }
+    memset(works, 0, count * sizeof *works);
+    memset(steps, 0, count * sizeof *steps);
+    for (size_t c = 0; c < count; c++) {
+        add_pairs(f, c, 1.0, f->force, f->work, works[c]);
+        add_pairs(f, c, -shift, f->mass_x, f->work, steps[c]);
+    }
     /* M y, which the next step takes too */
     sparse_multiply(&f->body.matrices->mass, columns, f->work, f->mass_x);
-    for (size_t c = 0; c < columns; c++)
-        for (size_t j = 0; j < loads; j++)
-            steps[c / loads][c % loads][j] +=
-                f->body.shift * column_dot(n, f->mass_x + c * n, f->work + (c - c % loads + j) * n);
+    for (size_t c = 0; c < count; c++)
+        add_pairs(f, c, shift, f->mass_x, f->work, steps[c]);
     /* y is the next x */
     double *swap = f->x;
     f->x = f->work;
@@ -272,10 +284,17 @@ static enum percuss_status advance_columns(struct flexibility *f, size_t count, 
     return PERCUSS_OK;
 }
 
-/* x becomes w = x - Psi g, with what rounding left of Psi taken out and held nodes shifted. */
-static void complete_columns(struct flexibility *f, size_t count)
+/* x of the normal loads, one after the other at the front, becomes w = x - Psi g, with what
+ * rounding left of Psi taken out and held nodes shifted. */
+static void complete_normals(struct flexibility *f, size_t count)
 {
-    size_t n = f->n;
+    size_t n = f->n, loads = (size_t)f->places[0].loads;
+    for (size_t c = 1; c < count; c++) {
+        memcpy(f->x + c * n, f->x + c * loads * n, n * sizeof *f->x);
+        memcpy(f->shifts + c * n, f->shifts + c * loads * n, n * sizeof *f->shifts);
+        memcpy(f->momenta + c * f->psi_count, f->momenta + c * loads * f->psi_count,
+               f->psi_count * sizeof *f->momenta);
+    }
     dense_products((struct dense){n, f->psi_count, f->mass_psi}, (struct dense){n, count, f->x},
                    f->products);
     for (size_t i = 0; i < count * f->psi_count; i++)
@@ -365,7 +384,7 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
     enum percuss_status status = iterate_columns(f, count, terms, fault);
     if (status != PERCUSS_OK)
         return status;
-    complete_columns(f, count * (size_t)places[0].loads);
+    complete_normals(f, count);
     for (size_t c = 0; c < count; c++)
         find_answer(&places[c], &terms[c], &answers[c]);
     return PERCUSS_OK;
@@ -402,9 +421,8 @@ double flexibility_response(const struct flexibility *flexibility, size_t solved
                             const struct flexibility_place *other)
 {
     const struct flexibility_place *own = &flexibility->places[solved];
-    size_t start = solved * (size_t)own->loads * flexibility->n;
     double u[3];
     boussinesq3_field(&own->load, other->load.point, u, NULL);
     return dot3(u, other->load.inward) +
-           displacement_at(flexibility, other, 0, flexibility->x + start);
+           displacement_at(flexibility, other, 0, flexibility->x + solved * flexibility->n);
 }
