@@ -52,24 +52,10 @@ void site_field_at(const struct site_field *field, const struct surface_face *fa
 /* Interpolation along the normal from the other places less the value at a place; NAN: nothing. */
 double site_field_error(const struct site_field *field, size_t place);
 
-/* Fills the faces' flexibility, flexibility_slope and, if it is wanted, tensor; the surface is
- * fitted. Along a sharp edge
- * flexibilities grow like 1/distance: nodes at one get the values that make a face's shape
- * functions come out best within it, from a third of the mesh's edges on. PERCUSS_INTERNAL without
- * memory. */
-enum percuss_status site_field_spread(const struct site_field *field,
-                                      const struct surface_rule *rule, struct mesh_body *body,
-                                      struct fault *fault);
+/* Whether a place has a value. */
+bool site_field_known(const struct site_field *field, size_t place);
 
-/* Half the trace of a curvature. */
-double site_field_curvature(const struct surface_point *point);
-
-/* Makes all flexibilities of a face NAN where its interpolation at a place differs from the solved
- * value by more than the allowed error near an edge, where near an edge it would give a contact a
- * negative compliance, and on walls that are too thin (flexibility_place_thin). The faces are
- * filled (site_field_spread). The tensors of a face alike, by themselves where they differ by more
- * from those solved for. Returns the number of faces without a flexibility. */
-size_t site_field_check(const struct site_field *field, const struct surface_rule *rule,
-                        struct mesh_body *body);
+/* Whether two parts of the mesh are equally stiff: a flexibility goes on from one to the other. */
+bool site_field_alike(const struct solid_mesh *mesh, size_t one, size_t other);
 
 #endif

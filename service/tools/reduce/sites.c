@@ -12,7 +12,7 @@
 #include "model/vector.h"
 #include "reduce/forked.h"
 #include "reduce/rates.h"
-#include "reduce/site_field.h"
+#include "reduce/site_faces.h"
 
 /* ---- the choice of sites: places all over a surface, evenly far from each other ---- */
 
@@ -599,9 +599,9 @@ enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *
         goto done;
     body->cut = sites.cut;
     body->removed = report->removed;
-    status = site_field_spread(&field, flexibility_rule(sites.flexibility), body, fault);
+    status = site_faces_fill(&field, flexibility_rule(sites.flexibility), body, fault);
     if (status == PERCUSS_OK) {
-        report->withdrawn = site_field_check(&field, flexibility_rule(sites.flexibility), body);
+        report->withdrawn = site_faces_check(&field, flexibility_rule(sites.flexibility), body);
         status = hand_over(&sites, body, fault);
     }
 

@@ -33,7 +33,7 @@ struct sites_report {
                            * face's size over the surface, the mesh's forces do not balance, or */
     size_t thin;          /* the wall is too thin for the mesh (flexibility_place_thin) */
     double thinnest;      /* wall that wants finer elements, of 1.5 times it, m; INFINITY: none */
-    size_t withdrawn;     /* faces that are left without a flexibility (site_field_check) */
+    size_t withdrawn;     /* faces that are left without a flexibility (site_faces_check) */
     size_t removed;       /* modes */
     double spacing;       /* reached, m */
     double usual_error;   /* root of the mean square, m/N, of sites a spacing off the edges */

@@ -1,13 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/tools/reduce/sites.c, site_field.c and forked.c: the flexibility that faces
- * interpolate against the one solved for in the same place. */
+/* Mirrors service/tools/reduce/sites.c, site_field.c, site_faces.c and forked.c: the flexibility
+ * that faces interpolate against the one solved for in the same place. */
 #include <signal.h>
 #include <unistd.h>
 
 #include "reduce/forked.h"
-#include "reduce/site_field.h"
+#include "reduce/site_faces.h"
 #include "reduce/sites.h"
 #include "unit/mesh/blocks.h"
 #include "unit/reduce/flexed.h"
@@ -319,7 +319,7 @@ static void what_cannot_be_is_taken_back(void **state)
                 scene.body.faces[f].flexibility[n] = f == at.face ? said[i] : 0.0;
         assert_true(site_field_make(&field, rule, flexibility_edges(scene.flexed.flexibility), 1,
                                     &at, &solved[i], NULL, 8e-3));
-        assert_int_equal(site_field_check(&field, rule, &scene.body), taken_back[i]);
+        assert_int_equal(site_faces_check(&field, rule, &scene.body), taken_back[i]);
         assert_int_equal(isnan(scene.body.faces[at.face].flexibility[0]), taken_back[i] > 0);
         site_field_free(&field);
     }
