@@ -57,7 +57,8 @@ static void sum_edges(const struct site_field *field, size_t patch, const double
             double length = norm3(along), start = -dot3(offset, along) / length;
             double square = dot3(offset, offset) - start * start;
             double aside = sqrt(fmax(square, blunt * blunt));
-            double sum = (atan((start + length) / aside) - atan(start / aside)) / aside;
+            /* the angle that it is seen under */
+            double sum = atan2(aside * length, aside * aside + start * (start + length)) / aside;
             sums->all[hollow] += sum;
             /* the direction aside, in the surface */
             add_scaled3(start / length, along, offset);
@@ -116,6 +117,7 @@ void site_field_free(struct site_field *field)
     free(field->faces);
     free(field->points);
     free(field->normals);
+    free(field->others);
     for (int p = 0; p < 2; p++) {
         free(field->parts[p].values);
         free(field->parts[p].edge_terms);
@@ -231,56 +233,61 @@ static bool weigh_neighbours(const struct site_field *field, const double x[3],
     return true;
 }
 
-/* A place's neighbours and their weights. False: its own value is not known, or no other. */
-static bool weigh_others(const struct site_field *field, size_t place, struct neighbours *near_it,
-                         double weights[SITE_FIELD_NEIGHBOURS])
+/* A place's neighbours and their weights: none where its own value is not known, or no other. */
+static void weigh_others(struct site_field *field, size_t place)
 {
+    struct site_others *others = &field->others[place];
+    struct neighbours near_it;
+    others->count = 0;
+    if (!site_field_known(field, place))
+        return;
     find_neighbours(field, field->faces[place], field->points[place], field->normals[place], place,
-                    near_it);
-    return site_field_known(field, place) &&
-           weigh_neighbours(field, field->points[place], near_it, weights);
+                    &near_it);
+    if (!weigh_neighbours(field, field->points[place], &near_it, others->weights))
+        return;
+    others->count = near_it.count;
+    memcpy(others->places, near_it.places, near_it.count * sizeof *others->places);
 }
 
 /* A number of rows [count][width] at a place, less that interpolated from its neighbours. */
-static double left_out(const double *rows, size_t width, size_t place,
-                       const struct neighbours *near_it, const double *weights)
+static double left_out(const struct site_field *field, const double *rows, size_t width,
+                       size_t place)
 {
+    const struct site_others *others = &field->others[place];
     double difference = rows[place * width];
-    for (size_t n = 0; n < near_it->count; n++)
-        difference -= weights[n] * rows[near_it->places[n] * width];
+    for (size_t n = 0; n < others->count; n++)
+        difference -= others->weights[n] * rows[others->places[n] * width];
     return difference;
 }
 
 /* The same of a part's number, [0], and of its edge terms. */
-static void part_left_out(const struct site_field_part *part, size_t number, size_t place,
-                          const struct neighbours *near_it, const double *weights,
+static void part_left_out(const struct site_field *field, const struct site_field_part *part,
+                          size_t number, size_t place,
                           double differences[1 + SITE_FIELD_EDGE_TERMS])
 {
     size_t stride = part->terms * part->width;
-    differences[0] = left_out(part->values + number, part->width, place, near_it, weights);
+    differences[0] = left_out(field, part->values + number, part->width, place);
     for (size_t t = 0; t < part->terms; t++)
         differences[1 + t] =
-            left_out(part->edge_terms + t * part->width + number, stride, place, near_it, weights);
+            left_out(field, part->edge_terms + t * part->width + number, stride, place);
 }
 
 /* least squares of these differences, by patches; all that is summed is linear in the coefficients
  */
-static bool fit_edges(const struct site_field *field, struct site_field_part *part,
-                      size_t patch_count)
+static bool fit_edges(const struct site_field *field, struct site_field_part *part)
 {
     enum { MOST = SITE_FIELD_EDGE_TERMS };
-    size_t terms = part->terms;
+    size_t terms = part->terms, patch_count = field->patch_count;
     double(*matrix)[MOST * MOST] = calloc(patch_count, sizeof *matrix);
     double(*side)[MOST] = calloc(patch_count, sizeof *side);
     bool good = matrix && side;
     for (size_t i = 0; good && i < field->count; i++) {
-        struct neighbours near_it;
-        double weights[SITE_FIELD_NEIGHBOURS], d[1 + MOST];
-        if (!weigh_others(field, i, &near_it, weights))
+        double d[1 + MOST];
+        if (field->others[i].count == 0)
             continue;
         size_t patch = field->faces[i]->patch;
         for (size_t number = 0; number < part->width; number++) {
-            part_left_out(part, number, i, &near_it, weights, d);
+            part_left_out(field, part, number, i, d);
             for (size_t t = 0; t < terms; t++) {
                 side[patch][t] += d[1 + t] * d[0];
                 for (size_t u = 0; u < terms; u++)
@@ -304,7 +311,7 @@ static bool fit_edges(const struct site_field *field, struct site_field_part *pa
     return good;
 }
 
-static bool make_room(struct site_field *field, size_t count, size_t patch_count, bool along)
+static bool make_room(struct site_field *field, size_t count, bool along)
 {
     field->parts[0].width = 1;
     field->parts[0].terms = 4;
@@ -313,13 +320,14 @@ static bool make_room(struct site_field *field, size_t count, size_t patch_count
     field->faces = malloc((count + 1) * sizeof *field->faces);
     field->points = malloc((count + 1) * sizeof *field->points);
     field->normals = malloc((count + 1) * sizeof *field->normals);
-    bool good = field->faces && field->points && field->normals;
+    field->others = malloc((count + 1) * sizeof *field->others);
+    bool good = field->faces && field->points && field->normals && field->others;
     for (int p = 0; p < 2; p++) {
         struct site_field_part *part = &field->parts[p];
         size_t numbers = count * part->width + 1;
         part->values = malloc(numbers * sizeof *part->values);
         part->edge_terms = malloc(numbers * part->terms * sizeof *part->edge_terms);
-        part->coefficients = malloc((patch_count + 1) * sizeof *part->coefficients);
+        part->coefficients = malloc((field->patch_count + 1) * sizeof *part->coefficients);
         good = good && part->values && part->edge_terms && part->coefficients;
     }
     return good;
@@ -357,18 +365,26 @@ bool site_field_make(struct site_field *field, const struct surface_rule *rule,
                                  .edges = edges,
                                  .size = rule->surface->size,
                                  .spacing = spacing,
+                                 .patch_count = rule->surface->patch_count,
                                  .places = places};
-    size_t patch_count = rule->surface->patch_count;
-    bool good = make_room(field, count, patch_count, tensors != NULL);
+    bool good = make_room(field, count, tensors != NULL);
     field->count = count;
     for (size_t i = 0; good && i < count; i++)
         take_place(field, i, &rule->surface->faces[places[i].face], values[i],
                    tensors ? tensors[i] : NULL);
+    for (size_t i = 0; good && i < count; i++)
+        weigh_others(field, i);
     for (int p = 0; good && p < (tensors ? 2 : 1); p++)
-        good = fit_edges(field, &field->parts[p], patch_count);
+        good = fit_edges(field, &field->parts[p]);
     if (!good)
         site_field_free(field);
     return good;
+}
+
+bool site_field_refit(struct site_field *field, const double *values)
+{
+    memcpy(field->parts[0].values, values, field->count * sizeof *values);
+    return fit_edges(field, &field->parts[0]);
 }
 
 /* A part's numbers at x: the edge terms there, and the mean of what they leave at the neighbours.
@@ -415,11 +431,10 @@ void site_field_at(const struct site_field *field, const struct surface_face *fa
 double site_field_error(const struct site_field *field, size_t place)
 {
     const struct site_field_part *part = &field->parts[0];
-    struct neighbours near_it;
-    double weights[SITE_FIELD_NEIGHBOURS], d[1 + SITE_FIELD_EDGE_TERMS];
-    if (!weigh_others(field, place, &near_it, weights))
+    double d[1 + SITE_FIELD_EDGE_TERMS];
+    if (field->others[place].count == 0)
         return NAN;
-    part_left_out(part, 0, place, &near_it, weights, d);
+    part_left_out(field, part, 0, place, d);
     for (size_t t = 0; t < part->terms; t++)
         d[0] -= part->coefficients[field->faces[place]->patch][t] * d[1 + t];
     return -d[0];

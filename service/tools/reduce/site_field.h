@@ -23,16 +23,24 @@ struct site_field_part {
     double (*coefficients)[SITE_FIELD_EDGE_TERMS]; /* [patch_count] */
 };
 
+/* A place's neighbours with a value, and their weights in the value that they give it. */
+struct site_others {
+    size_t count, places[SITE_FIELD_NEIGHBOURS];
+    double weights[SITE_FIELD_NEIGHBOURS];
+};
+
 /* Owns its arrays; edges and places are borrowed. */
 struct site_field {
     const struct solid_mesh *mesh; /* borrowed */
     const struct flexibility_edges *edges;
     double size;    /* m, of the mesh */
     double spacing; /* m, of the places */
+    size_t patch_count;
     size_t count;
     const struct flexibility_place *places; /* [count], borrowed */
     const struct surface_face **faces;      /* [count], borrowed */
     double (*points)[3], (*normals)[3];
+    struct site_others *others;      /* [count]; of none: no value, or no other is near enough */
     struct site_field_part parts[2]; /* the normal's, the others */
 };
 
@@ -43,6 +51,9 @@ bool site_field_make(struct site_field *field, const struct surface_rule *rule,
                      const struct flexibility_place *places, const double *values,
                      const double (*tensors)[6], double spacing);
 void site_field_free(struct site_field *field);
+
+/* Gives the places other values along the normal: NAN where they were NAN. False: no memory. */
+bool site_field_refit(struct site_field *field, const double *values);
 
 /* The numbers at x, a point of the face with the normal `outward`; NAN: no value is known nearby.
  */

@@ -411,14 +411,23 @@ static double mode_at(const struct sites *sites, size_t mode, size_t place, doub
     return parts[0];
 }
 
-/* Gives the mode back to values and responses: it is no longer removed. */
+/* Gives the mode back to the values along the normal alone. */
+static void give_back_value(struct sites *sites, size_t mode)
+{
+    for (size_t i = 0; i < sites->count; i++) {
+        double moved[3], shape = mode_at(sites, mode, i, moved);
+        sites->values[i] += shape * shape;
+    }
+}
+
+/* Gives the mode back to values and responses: it is no longer removed. `shape`: room, [count]. */
 static void give_back(struct sites *sites, size_t mode, double *shape)
 {
     static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
     for (size_t i = 0; i < sites->count; i++) {
         double moved[3];
         shape[i] = mode_at(sites, mode, i, moved);
-        for (int k = 0; sites->tensors && k < 6; k++)
+        for (int k = 0; k < 6; k++)
             sites->tensors[i][k] += moved[ROW[k]] * moved[COLUMN[k]];
     }
     for (size_t i = 0; i < sites->count; i++) {
@@ -428,15 +437,21 @@ static void give_back(struct sites *sites, size_t mode, double *shape)
     }
 }
 
-/* the field of the values as they are, and how good it is */
-static enum percuss_status make_field(const struct sites *sites, struct site_field *field,
-                                      struct sites_report *report, struct fault *fault)
+/* The field of the values as they are; with the tensors where `along`. */
+static enum percuss_status make_field(const struct sites *sites, bool along, double spacing,
+                                      struct site_field *field, struct fault *fault)
 {
-    if (!site_field_make(field, flexibility_rule(sites->flexibility),
-                         flexibility_edges(sites->flexibility), sites->count, sites->places,
-                         sites->values, (const double(*)[6])sites->tensors, report->spacing))
-        return pace_fault(fault, PERCUSS_INTERNAL);
-    /* each site from its neighbours alone */
+    bool made =
+        site_field_make(field, flexibility_rule(sites->flexibility),
+                        flexibility_edges(sites->flexibility), sites->count, sites->places,
+                        sites->values, along ? (const double(*)[6])sites->tensors : NULL, spacing);
+    return made ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
+}
+
+/* How good it is: each site from its neighbours alone. */
+static void measure_field(const struct sites *sites, const struct site_field *field,
+                          struct sites_report *report)
+{
     double sum = 0.0, inside = 0.0;
     report->unknown = 0;
     report->largest_error = 0.0;
@@ -453,54 +468,57 @@ static enum percuss_status make_field(const struct sites *sites, struct site_fie
         }
     }
     report->usual_error = inside > 0.0 ? sqrt(sum / inside) : report->largest_error;
-    return PERCUSS_OK;
+}
+
+/* The report with as many modes removed as suits the interpolation best, found by the values along
+ * the normal alone, which it leaves changed. */
+static enum percuss_status seek_smoothest(struct sites *sites, struct sites_report *report,
+                                          struct fault *fault)
+{
+    enum { TRIALS = 12 };
+    size_t most = sites->task->body.removed, step = most / TRIALS + 1;
+    struct sites_report best = *report;
+    struct site_field field;
+    best.usual_error = INFINITY;
+    enum percuss_status status = make_field(sites, false, report->spacing, &field, fault);
+    for (size_t removed = most; status == PERCUSS_OK;) {
+        struct sites_report now = *report;
+        now.removed = removed;
+        measure_field(sites, &field, &now);
+        if (now.usual_error < best.usual_error)
+            best = now;
+        if (removed == 0)
+            break;
+        for (size_t i = 0; i < step && removed > 0; i++)
+            give_back_value(sites, --removed);
+        if (!site_field_refit(&field, sites->values))
+            status = pace_fault(fault, PERCUSS_INTERNAL);
+    }
+    if (status == PERCUSS_OK)
+        *report = best;
+    site_field_free(&field);
+    return status;
 }
 
 /* The field of all sites with as many modes removed as suits its interpolation best. */
 static enum percuss_status smoothen(struct sites *sites, struct site_field *field,
                                     struct sites_report *report, struct fault *fault)
 {
-    enum { TRIALS = 12 };
-    size_t most = sites->task->body.removed, count = sites->count;
-    size_t step = most / TRIALS + 1;
-    double *shape = malloc((count + 1) * sizeof *shape);
-    struct sites_report best = *report;
-    best.usual_error = INFINITY;
-    enum percuss_status status = shape ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
-
-    /* first the best number of modes, by values alone; then the responses for that number */
-    float *between = sites->between;
-    double(*tensors)[6] = sites->tensors;
-    double *first = malloc((count + 1) * sizeof *first);
-    if (!first && status == PERCUSS_OK)
-        status = pace_fault(fault, PERCUSS_INTERNAL);
-    if (status == PERCUSS_OK)
-        memcpy(first, sites->values, count * sizeof *first);
-    sites->between = NULL;
-    sites->tensors = NULL;
-    for (size_t removed = most; status == PERCUSS_OK;) {
-        struct sites_report now = *report;
-        now.removed = removed;
-        status = make_field(sites, field, &now, fault);
-        site_field_free(field);
-        if (now.usual_error < best.usual_error)
-            best = now;
-        if (removed == 0)
-            break;
-        for (size_t i = 0; i < step && removed > 0; i++)
-            give_back(sites, --removed, shape);
-    }
-    sites->between = between;
-    sites->tensors = tensors;
+    size_t count = sites->count;
+    double *spare = malloc((count + 1) * sizeof *spare);
+    if (!spare)
+        return pace_fault(fault, PERCUSS_INTERNAL);
+    memcpy(spare, sites->values, count * sizeof *spare);
+    enum percuss_status status = seek_smoothest(sites, report, fault);
     if (status == PERCUSS_OK) {
-        memcpy(sites->values, first, count * sizeof *first);
-        for (size_t mode = most; mode > best.removed; mode--)
-            give_back(sites, mode - 1, shape);
-        *report = best;
-        status = make_field(sites, field, report, fault);
+        memcpy(sites->values, spare, count * sizeof *spare);
+        for (size_t mode = sites->task->body.removed; mode > report->removed; mode--)
+            give_back(sites, mode - 1, spare);
+        status = make_field(sites, true, report->spacing, field, fault);
     }
-    free(first);
-    free(shape);
+    if (status == PERCUSS_OK)
+        measure_field(sites, field, report);
+    free(spare);
     return status;
 }
 
