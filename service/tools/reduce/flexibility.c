@@ -192,6 +192,18 @@ void flexibility_integrate(struct flexibility *flexibility, const struct flexibi
     integrate_field(flexibility, place, &columns, values);
 }
 
+double flexibility_column_seconds(const struct rates *rates, const struct factor_cost *cost,
+                                  const struct sparse *mass, size_t removed)
+{
+    /* four products with the modes, and two more of the normal loads; blocks are as wide as takes
+     * them half way from the thin rate to the square one */
+    double modes = 4.0 + 2.0 / FLEXIBILITY_LOADS;
+    double products = 2.0 * modes * (double)mass->n * (double)removed;
+    return rates_solution(rates, cost, FLEXIBILITY_BLOCK) +
+           rates_product(rates, mass->start[mass->n]) +
+           products / sqrt(rates->thin * rates->square);
+}
+
 /* The modes' part of C of one place, whose columns have the works `own` and the momenta g on them.
  * Rigid motions balance a free body: f has the work p on them. */
 static void take_modes(const struct flexibility *f, const struct flexibility_place *place,

@@ -31,6 +31,7 @@
 #include "mesh/matrices.h"
 #include "reduce/factor.h"
 #include "reduce/flexibility_place.h"
+#include "reduce/rates.h"
 
 /* Columns that are solved for together: of a factor of 47,000 unknowns one of 63 takes 0.8 times
  * what one of 30 does. */
@@ -75,6 +76,11 @@ enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t co
 
 /* The integrals of one place alone, without a solution: a sample of their time. */
 void flexibility_integrate(struct flexibility *flexibility, const struct flexibility_place *place);
+
+/* Seconds of one column in a block of them but for its integrals: its solution, and its products
+ * with M and with `removed` modes. */
+double flexibility_column_seconds(const struct rates *rates, const struct factor_cost *cost,
+                                  const struct sparse *mass, size_t removed);
 
 /* Change of a flexibility with the logarithm of its radius, m/N: C(r) = C(r') + slope ln(r' / r).
  */

@@ -131,35 +131,21 @@ enum { SPARE = 4, ATTEMPTS = 3 };
 /* Parts of the work: the count, the factor, the modes. */
 static const double COUNTED = 0.15, FACTORED = 0.15;
 
-/* Solutions pass the factor as whole blocks, which is so many times as fast as thin products. */
-static const double SOLVE_SPEED = 1.6;
-
 struct modes_cost modes_cost(const struct factor_cost *cost, const struct rates *rates,
                              const struct matrices *matrices, size_t count)
 {
     double vectors = (double)lanczos_expected_vectors(count);
     double length = (double)matrices->stiffness.n;
-    double mass = (double)matrices->mass.start[matrices->mass.n];
-    /* a solve passes all entries twice; each new vector meets all before it once, and M three
-     * times; another factor counts the modes */
-    double solves = 4.0 * cost->entries * vectors;
-    double products =
-        2.0 * length * vectors * (vectors + (double)count) + 3.0 * 4.0 * mass * vectors;
+    size_t mass = matrices->mass.start[matrices->mass.n];
+    /* each new vector meets all before it once, and M three times; another factor counts the modes
+     */
+    double each = rates_solution(rates, cost, LANCZOS_BLOCK) + 3.0 * rates_product(rates, mass);
+    double products = 2.0 * length * vectors * (vectors + (double)count) / rates->thin;
     double arrays = 8.0 * (length * (vectors + (double)count) + 3.0 * vectors * vectors);
     double memory = cost->memory + arrays;
     double together = 2.0 * cost->memory + 8.0 * length * (double)count;
     return (struct modes_cost){memory, fmax(memory, together),
-                               2.0 * cost->operations / rates->square +
-                                   (products + solves / SOLVE_SPEED) / rates->thin};
-}
-
-/* one solution, and five products with the modes that are taken out; a block of them is four times
- * as wide as the modes', and twice as fast */
-double modes_statics_seconds(const struct factor_cost *cost, const struct rates *rates, size_t n,
-                             size_t count, size_t removed)
-{
-    double solves = 4.0 * cost->entries, products = 10.0 * (double)n * (double)removed;
-    return 0.5 * (double)count * (solves / SOLVE_SPEED + products) / rates->thin;
+                               2.0 * rates_factor(rates, cost) + vectors * each + products};
 }
 
 /* A watch for one stage of the work. */

@@ -62,10 +62,6 @@ struct modes_cost {
 struct modes_cost modes_cost(const struct factor_cost *cost, const struct rates *rates,
                              const struct matrices *matrices, size_t count);
 
-/* Time of `count` static solutions without `removed` modes, s as above. */
-double modes_statics_seconds(const struct factor_cost *cost, const struct rates *rates, size_t n,
-                             size_t count, size_t removed);
-
 /* Elastic modes below a frequency (rad/s), by inertia: takes a factor, in the order of `like`
  * (factor_analyse; NULL: in one of its own). Errors as below. */
 enum percuss_status modes_count(const struct modes_task *task, double omega,

@@ -433,12 +433,12 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
     reduction->task.two_factors = reduction->cost.together + matrices < free;
     reduction->cost.memory = matrices + (reduction->task.two_factors ? reduction->cost.together
                                                                      : reduction->cost.memory);
-    double each = reduction->sample.seconds;
+    double column =
+        flexibility_column_seconds(&reduction->rates, &reduction->factor_cost,
+                                   &reduction->matrices.mass, count < REMOVED ? count : REMOVED);
+    double each = reduction->sample.seconds + FLEXIBILITY_LOADS * column;
     reduction->statics =
-        ((double)sites * each + modes_statics_seconds(&reduction->factor_cost, &reduction->rates, n,
-                                                      FLEXIBILITY_LOADS * sites,
-                                                      count < REMOVED ? count : REMOVED)) /
-        (double)processes_for(reduction);
+        (double)sites * each / (double)processes_for(reduction) + reduction->sample.faces;
     reduction->progress.work = rates_clock();
     reduction->progress.expected = reduction->cost.seconds + reduction->statics;
     double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free;

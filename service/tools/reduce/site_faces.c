@@ -406,6 +406,20 @@ enum percuss_status site_faces_fill(const struct site_field *field, const struct
     return good ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
 }
 
+size_t site_faces_points(const struct site_field *field, const struct surface_rule *rule)
+{
+    const struct surface *surface = rule->surface;
+    double at[FACE_GRID * FACE_GRID][2];
+    size_t points = rule->mesh->node_count;
+    for (size_t f = 0; f < surface->face_count; f++) {
+        double edge =
+            flexibility_edges_distance(field->edges, surface->faces[f].patch, rule->centres[f]);
+        bool fitted = edge < FITTED_TO * surface->size + rule->radii[f];
+        points += fitted ? grid_points(surface->faces[f].count, at) : 0;
+    }
+    return points;
+}
+
 /* ---- faces that cannot be trusted ---- */
 
 /* Allowed error of a face, times E and the distance from the edge, or the mesh's size where that is

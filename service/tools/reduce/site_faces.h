@@ -15,6 +15,10 @@
 enum percuss_status site_faces_fill(const struct site_field *field, const struct surface_rule *rule,
                                     struct mesh_body *body, struct fault *fault);
 
+/* At how many points that asks the field, before any value is known: at nodes, and all over the
+ * faces near sharp edges. */
+size_t site_faces_points(const struct site_field *field, const struct surface_rule *rule);
+
 /* Makes all flexibilities of a face NAN where its interpolation at a place differs from the solved
  * value by more than the allowed error near an edge, where near an edge it would give a contact a
  * negative compliance, and on walls that are too thin (flexibility_place_thin). The faces are

@@ -46,6 +46,7 @@ struct sites_report {
 struct sites_sample {
     size_t count;   /* sites that there will be */
     double seconds; /* for the integrals of one, the mean of a few */
+    double faces;   /* s for the interpolation between all of them, by one process */
 };
 
 /* The task's body needs neither factor nor modes. PERCUSS_INTERNAL without memory. */
