@@ -69,17 +69,41 @@ static enum percuss_status take_parts(const struct forked_work *work, struct for
     return status;
 }
 
-/* A copy of this process, which takes parts and ends with it; its process, or -1. */
-static pid_t make_copy(const struct forked_work *work, struct forked_state *state)
+pid_t forked_begin(bool (*work)(void *context), void *context)
 {
     pid_t parent = getpid(), copy = fork();
     if (copy != 0)
         return copy;
-    struct fault fault = {""};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == parent)
-        take_parts(work, state, NULL, &fault);
-    _exit(0);
+    _exit(getppid() == parent && work(context) ? 0 : 1);
+}
+
+bool forked_end(pid_t copy)
+{
+    int status;
+    return copy > 0 && waitpid(copy, &status, 0) == copy && WIFEXITED(status) &&
+           WEXITSTATUS(status) == 0;
+}
+
+void forked_drop(pid_t copy)
+{
+    if (copy <= 0)
+        return;
+    kill(copy, SIGKILL);
+    waitpid(copy, NULL, 0);
+}
+
+/* What a copy takes parts of. */
+struct forked_share {
+    const struct forked_work *work;
+    struct forked_state *state;
+};
+
+static bool take_share(void *context)
+{
+    const struct forked_share *share = context;
+    struct fault fault = {""};
+    return take_parts(share->work, share->state, NULL, &fault) == PERCUSS_OK;
 }
 
 enum percuss_status forked_run(const struct forked_work *work, struct fault *fault)
@@ -87,12 +111,13 @@ enum percuss_status forked_run(const struct forked_work *work, struct fault *fau
     size_t bytes = sizeof(struct forked_state) + work->parts * sizeof(atomic_bool);
     struct forked_state *state = forked_memory(bytes);
     struct pace pace = {.watch = work->watch};
+    struct forked_share share = {work, state};
     pid_t copies[MOST_PROCESSES];
     size_t count = 0;
     if (!state)
         return pace_fault(fault, PERCUSS_INTERNAL);
     while (count + 1 < work->processes && count + 1 < work->parts && count + 1 < MOST_PROCESSES) {
-        copies[count] = make_copy(work, state);
+        copies[count] = forked_begin(take_share, &share);
         if (copies[count] < 0)
             break;
         count++;
@@ -101,8 +126,9 @@ enum percuss_status forked_run(const struct forked_work *work, struct fault *fau
     /* the rest of the copies' parts is waited for, or of no use */
     for (size_t i = 0; i < count; i++) {
         if (status != PERCUSS_OK)
-            kill(copies[i], SIGKILL);
-        waitpid(copies[i], NULL, 0);
+            forked_drop(copies[i]);
+        else
+            forked_end(copies[i]);
     }
     /* and what a copy has left */
     for (size_t part = 0; part < work->parts && status == PERCUSS_OK; part++)

@@ -7,6 +7,8 @@
 #ifndef PERCUSS_REDUCE_FORKED_H
 #define PERCUSS_REDUCE_FORKED_H
 
+#include <sys/types.h>
+
 #include "base/watch.h"
 
 struct forked_work {
@@ -21,6 +23,16 @@ struct forked_work {
 /* All parts, in any order. What a copy has not finished, because it failed, was killed or could not
  * be made, is done here. PERCUSS_TIMEOUT: the watch stopped it; else the status of a part. */
 enum percuss_status forked_run(const struct forked_work *work, struct fault *fault);
+
+/* A copy that does a work while this process goes on; results go to memory of forked_memory. -1: no
+ * copy could be made. */
+pid_t forked_begin(bool (*work)(void *context), void *context);
+
+/* Waits for it. False: the work is not done, as it returned false, was killed, or copy is -1. */
+bool forked_end(pid_t copy);
+
+/* Ends it, unless copy is -1. */
+void forked_drop(pid_t copy);
 
 /* Zeroed memory that copies share; NULL: there is none. */
 void *forked_memory(size_t bytes);

@@ -29,6 +29,7 @@ struct lanczos {
     double *values, *vectors;                   /* of T: [room], [room][room] */
     double largest;                             /* norm of A x seen */
     size_t converged;
+    bool foretold; /* input->foreseen is told */
 };
 
 static enum percuss_status no_memory(struct fault *fault)
@@ -267,6 +268,31 @@ static size_t free_count(const struct lanczos_input *input)
     return moving - input->rigid.count;
 }
 
+/* The frequency of the m-th eigenvalue from the largest down, rad/s. */
+static double frequency(const struct lanczos *state, size_t m)
+{
+    double inverse = state->values[state->size - 1 - m];
+    return sqrt(fmax(1.0 / inverse - state->input->shift, 0.0));
+}
+
+/* Tells all frequencies once most have converged. False: out of memory. */
+static bool foretell(struct lanczos *state)
+{
+    const struct lanczos_input *input = state->input;
+    size_t wanted = input->count;
+    if (!input->foreseen || state->foretold || 4 * state->converged < 3 * wanted ||
+        state->size < wanted)
+        return true;
+    double *omega = malloc((wanted + 1) * sizeof *omega);
+    for (size_t m = 0; omega && m < wanted; m++)
+        omega[m] = frequency(state, m);
+    if (omega)
+        input->foreseen(input->foreseen_context, omega);
+    free(omega);
+    state->foretold = true;
+    return omega != NULL;
+}
+
 /* Until all that are wanted have converged; looks each time the basis has grown by a tenth. */
 static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
 {
@@ -291,7 +317,7 @@ static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
         /* when it has grown by a tenth */
         if (state->size < look_at)
             continue;
-        if (!look(state))
+        if (!look(state) || !foretell(state))
             return no_memory(fault);
         /* a basis of all there is holds them, unless rounding hides them */
         if (state->converged < wanted &&
@@ -321,8 +347,7 @@ static enum percuss_status collect(struct lanczos *state, double **omega, double
         return no_memory(fault);
     }
     for (size_t m = 0; m < count; m++) {
-        double inverse = state->values[size - 1 - m];
-        (*omega)[m] = sqrt(fmax(1.0 / inverse - state->input->shift, 0.0));
+        (*omega)[m] = frequency(state, m);
         memcpy(turned + m * size, state->vectors + (size - 1 - m) * size, size * sizeof *turned);
     }
     dense_combine(basis_of(state), 1.0, turned, 0.0, count, *shapes);

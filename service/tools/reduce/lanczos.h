@@ -26,6 +26,10 @@ struct lanczos_input {
     size_t count;          /* modes that are wanted */
     uint64_t seed;         /* of the first vectors */
     const struct watch *watch;
+    /* Told once, when three quarters of the modes have converged, the frequencies of all that are
+     * wanted (rad/s, ascending), which are good to 1e-4 then; NULL: not wanted. */
+    void (*foreseen)(void *context, const double *omega);
+    void *foreseen_context;
 };
 
 /* Fills `omega` [count], ascending, and `shapes` [count][n], M-orthonormal; both the caller's to

@@ -10,6 +10,7 @@
 #include "model/vector.h"
 #include "numeric/dense.h"
 #include "numeric/linear.h"
+#include "reduce/forked.h"
 #include "reduce/lanczos.h"
 
 /* ---- rigid motions ---- */
@@ -196,26 +197,6 @@ static enum percuss_status make_factor(const struct modes_task *task, double shi
     return status;
 }
 
-static enum percuss_status seek_modes(const struct modes_task *task, struct factor *factor,
-                                      size_t count, uint64_t seed, struct modes *modes,
-                                      struct fault *fault)
-{
-    /* they are counted before or afterwards */
-    double before = count > task->most ? FACTORED : COUNTED + FACTORED;
-    struct stage stage = {task->watch, before, 1.0 - COUNTED - FACTORED};
-    struct watch watch = {task->watch && task->watch->proceed ? stage_proceed : NULL, &stage};
-    struct lanczos_input input = {.matrices = task->matrices,
-                                  .factor = factor,
-                                  .shift = modes->shift,
-                                  .rigid = task->rigid,
-                                  .count = count,
-                                  .seed = seed,
-                                  .watch = &watch};
-    free(modes->omega);
-    free(modes->shapes);
-    return lanczos_modes(&input, &modes->omega, &modes->shapes, fault);
-}
-
 /* Frequencies nearer to each other are taken for copies of one: a mesh is not quite as symmetric as
  * its body (a ring of 60 elements splits its pairs by 1e-4). */
 static const double COPIES = 1e-3;
@@ -256,6 +237,65 @@ static size_t widest_gap(const double *omega, size_t wanted, size_t found, doubl
     return best;
 }
 
+/* A count by a copy of this process while it still seeks modes. */
+struct count_ahead {
+    const struct modes_task *task;
+    const struct factor *like;
+    double below;    /* rad/s */
+    size_t *counted; /* forked_memory; NULL: none */
+    pid_t copy;      /* -1: none */
+};
+
+static bool count_in_copy(void *context)
+{
+    const struct count_ahead *ahead = context;
+    struct fault fault = {""};
+    return modes_count(ahead->task, ahead->below, ahead->like, ahead->counted, &fault) ==
+           PERCUSS_OK;
+}
+
+/* Counts below the gap that is foreseen. */
+static void begin_count(void *context, const double *omega)
+{
+    struct count_ahead *ahead = context;
+    size_t found = ahead->task->most + SPARE;
+    widest_gap(omega, whole_frequencies(omega, ahead->task->most, found), found, &ahead->below);
+    ahead->counted = forked_memory(sizeof *ahead->counted);
+    if (ahead->counted)
+        ahead->copy = forked_begin(count_in_copy, ahead);
+}
+
+/* Whether that is done, below the gap that it was in the end, and confirms the modes. */
+static bool end_count(struct count_ahead *ahead, const struct modes *modes)
+{
+    bool done = forked_end(ahead->copy);
+    return done && *ahead->counted == modes->confirmed &&
+           modes->omega[modes->confirmed - 1] < ahead->below &&
+           ahead->below < modes->omega[modes->confirmed];
+}
+
+static enum percuss_status seek_modes(const struct modes_task *task, struct factor *factor,
+                                      size_t count, struct count_ahead *ahead, uint64_t seed,
+                                      struct modes *modes, struct fault *fault)
+{
+    /* they are counted before or afterwards */
+    double before = count > task->most ? FACTORED : COUNTED + FACTORED;
+    struct stage stage = {task->watch, before, 1.0 - COUNTED - FACTORED};
+    struct watch watch = {task->watch && task->watch->proceed ? stage_proceed : NULL, &stage};
+    struct lanczos_input input = {.matrices = task->matrices,
+                                  .factor = factor,
+                                  .shift = modes->shift,
+                                  .rigid = task->rigid,
+                                  .count = count,
+                                  .seed = seed,
+                                  .watch = &watch,
+                                  .foreseen = ahead ? begin_count : NULL,
+                                  .foreseen_context = ahead};
+    free(modes->omega);
+    free(modes->shapes);
+    return lanczos_modes(&input, &modes->omega, &modes->shapes, fault);
+}
+
 /* Unknowns that supports leave, rigid motions taken out. */
 static size_t modes_there_are(const struct modes_task *task)
 {
@@ -286,6 +326,26 @@ static enum percuss_status suit_factor(const struct modes_task *task, struct mod
     return make_factor(task, modes->shift, factor, fault);
 }
 
+/* So many modes and the spare ones, and how many a count is to confirm, unless it has already. */
+static enum percuss_status seek_confirmed(const struct modes_task *task, struct factor *factor,
+                                          uint64_t seed, struct modes *modes, struct fault *fault)
+{
+    size_t found = task->most + SPARE;
+    struct count_ahead ahead = {.task = task, .like = factor, .copy = -1};
+    bool counts = task->two_factors && task->processes > 1;
+    enum percuss_status status =
+        seek_modes(task, factor, found, counts ? &ahead : NULL, seed, modes, fault);
+    if (status == PERCUSS_OK) {
+        modes->count = whole_frequencies(modes->omega, task->most, found);
+        modes->confirmed = widest_gap(modes->omega, modes->count, found, &modes->confirmed_below);
+        modes->counted_ahead = end_count(&ahead, modes);
+    } else {
+        forked_drop(ahead.copy);
+    }
+    forked_memory_free(ahead.counted, sizeof *ahead.counted);
+    return status;
+}
+
 /* So many modes; then a count says whether they are the lowest, between two of the spare ones. */
 static enum percuss_status find_most(const struct modes_task *task, struct modes *modes,
                                      struct factor **factor, struct fault *fault)
@@ -300,12 +360,11 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
         if (!*factor)
             status = make_factor(task, modes->shift, factor, fault);
         if (!status)
-            status = seek_modes(task, *factor, task->most + SPARE, attempt, modes, fault);
+            status = seek_confirmed(task, *factor, attempt, modes, fault);
         if (status)
             return status;
-        modes->count = whole_frequencies(modes->omega, task->most, task->most + SPARE);
-        modes->confirmed =
-            widest_gap(modes->omega, modes->count, task->most + SPARE, &modes->confirmed_below);
+        if (modes->counted_ahead)
+            return suit_factor(task, modes, factor, fault);
         if (!task->two_factors) {
             factor_free(*factor);
             *factor = NULL;
@@ -333,7 +392,7 @@ static enum percuss_status find_below(const struct modes_task *task, size_t coun
     modes->count = modes->confirmed = count;
     modes->confirmed_below = task->below;
     for (uint64_t attempt = 1; !status && attempt <= ATTEMPTS; attempt++) {
-        status = seek_modes(task, *factor, count, attempt, modes, fault);
+        status = seek_modes(task, *factor, count, NULL, attempt, modes, fault);
         if (!status && (count == 0 || modes->omega[count - 1] < task->below))
             return suit_factor(task, modes, factor, fault);
     }

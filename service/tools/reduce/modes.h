@@ -39,6 +39,7 @@ struct modes {
     /* by inertia so many modes, of which these are the first, lie below this frequency */
     size_t confirmed;
     double confirmed_below; /* rad/s */
+    bool counted_ahead;     /* by a copy of the process, while the modes were sought */
 };
 
 /* The wanted modes and their matrices. All is borrowed. */
@@ -50,6 +51,7 @@ struct modes_task {
     size_t most;               /* ... but at most so many */
     size_t known;              /* modes below, once modes_count has counted; SIZE_MAX: it has not */
     bool two_factors;          /* there is memory for two at a time, so that none is made twice */
+    size_t processes;          /* see forked.h: a second one counts while the first seeks modes */
     const struct watch *watch; /* told the part done; NULL: no watch */
 };
 

@@ -431,6 +431,7 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
                       12.0 * (double)reduction->matrices.mass.start[n];
     double free = free_memory();
     reduction->task.two_factors = reduction->cost.together + matrices < free;
+    reduction->task.processes = processes_for(reduction);
     reduction->cost.memory = matrices + (reduction->task.two_factors ? reduction->cost.together
                                                                      : reduction->cost.memory);
     double column =

@@ -100,6 +100,40 @@ static void test_by_frequency(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* A second process counts while the first seeks modes; they are the same to the last bit. */
+static void test_count_ahead(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved alone;
+    struct fault fault;
+    struct modes modes;
+    struct factor *factor = NULL;
+    solid_shape_block(ELEMENT_TET10, (double[3]){0.1, 0.03, 0.02}, (size_t[3]){4, 1, 1}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 12, &alone);
+    assert_false(alone.modes.counted_ahead);
+    size_t n = alone.matrices.stiffness.n;
+    struct modes_task task = {.matrices = &alone.matrices,
+                              .rigid = {n, alone.rigid_count, alone.rigid},
+                              .scale = alone.scale,
+                              .below = INFINITY,
+                              .most = 12,
+                              .known = SIZE_MAX,
+                              .two_factors = true,
+                              .processes = 2};
+    assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_OK);
+    assert_true(modes.counted_ahead);
+    assert_int_equal(modes.confirmed, alone.modes.confirmed);
+    assert_true(modes.confirmed_below == alone.modes.confirmed_below);
+    assert_int_equal(modes.count, alone.modes.count);
+    assert_memory_equal(modes.shapes, alone.modes.shapes, modes.count * n * sizeof(double));
+    modes_free(&modes);
+    factor_free(factor);
+    solved_free(&alone);
+    solid_mesh_free(&mesh);
+}
+
 /* One factor serves modes and statics, also where memory holds only one at a time. Where the first
  * frequency was guessed far too high it is made anew, and where the guess is not as bad, not. */
 static void test_guessed_scale(void **state)
@@ -270,6 +304,7 @@ int main(void)
         cmocka_unit_test(test_by_frequency),   cmocka_unit_test(test_supports),
         cmocka_unit_test(test_one_element),    cmocka_unit_test(test_missing_stiffness),
         cmocka_unit_test(test_can_be_stopped), cmocka_unit_test(test_guessed_scale),
+        cmocka_unit_test(test_count_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

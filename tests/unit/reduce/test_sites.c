@@ -397,6 +397,28 @@ static void killed_copies_lose_nothing(void **state)
     forked_memory_free(shares.by, PARTS * sizeof(int));
 }
 
+static bool note_own_process(void *context)
+{
+    struct fault fault;
+    return note_process(context, 0, &fault) == PERCUSS_OK;
+}
+
+/* A copy's work is waited for; that of a killed one is not done. */
+static void a_copy_works_beside(void **state)
+{
+    (void)state;
+    struct shares shares = {.own = getpid(), .by = forked_memory(sizeof(int))};
+    assert_non_null(shares.by);
+    pid_t copy = forked_begin(note_own_process, &shares);
+    assert_true(forked_end(copy));
+    assert_int_equal(*shares.by, copy);
+    shares.deadly = true;
+    assert_false(forked_end(forked_begin(note_own_process, &shares)));
+    assert_false(forked_end(-1));
+    forked_drop(-1);
+    forked_memory_free(shares.by, sizeof(int));
+}
+
 /* Sites that were asked for are there, and between them stands what one does to the other. */
 static void sites_know_each_other(void **state)
 {
@@ -465,6 +487,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_is_taken_back),
         cmocka_unit_test(processes_share_the_sites),
         cmocka_unit_test(killed_copies_lose_nothing),
+        cmocka_unit_test(a_copy_works_beside),
         cmocka_unit_test(sites_know_each_other),
         cmocka_unit_test(a_watch_stops_it),
     };
