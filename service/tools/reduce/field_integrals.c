@@ -297,9 +297,11 @@ enum { VOLUME_SPLITS = 2 };
 /* Beyond so many radii the displacements at the nodes stand for all in an element: its shape
  * functions leave (radius / distance)^3 of them and less. */
 static const double VOLUME_NODES = 6.0;
-/* Of the place's face: a node so near to the place, where the field is infinite, stays at rest, and
- * the integrals of the elements about it make up for that; rounding would be as large otherwise. */
-static const double UNDER = 1e-6;
+/* Of the place's face: nodes so near to the place, where the field is steep and infinite in the
+ * end, stay at rest, and the integrals of the elements about them make up for that. M may be
+ * another program's and differ from the masses of these elements, which a steep field would show.
+ */
+static const double UNDER = 0.2;
 static const int STRAIN_ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int STRAIN_COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
@@ -507,9 +509,10 @@ static void leave_out_masses(const struct solid_mesh *mesh, const struct flexibi
         }
 }
 
-/* Displacements of all nodes. */
+/* Displacements of all nodes; held freedoms, which the body's own solution shifts back by as much,
+ * have theirs however near to the place they are. */
 static void move_nodes(const struct solid_mesh *mesh, const struct flexibility_place *place,
-                       double *nodal)
+                       const bool *held, double *nodal)
 {
     enum { TOGETHER = 64 };
     double u[TOGETHER][FLEXIBILITY_LOADS][3];
@@ -521,19 +524,22 @@ static void move_nodes(const struct solid_mesh *mesh, const struct flexibility_p
             double offset[3];
             sub3(x[p], place->load.point, offset);
             bool under = norm3(offset) < UNDER * place->element;
-            for (size_t i = 0; i < (size_t)place->loads; i++)
-                for (int k = 0; k < 3; k++)
-                    nodal[3 * (i * mesh->node_count + first + p) + k] = under ? 0.0 : u[p][i][k];
+            for (size_t k = 0; k < 3; k++) {
+                size_t at = 3 * (first + p) + k;
+                bool rests = under && !(held && held[at]);
+                for (size_t i = 0; i < (size_t)place->loads; i++)
+                    nodal[3 * i * mesh->node_count + at] = rests ? 0.0 : u[p][i][k];
+            }
         }
     }
 }
 
 void field_integrals_mass(const struct volume_rule *rule, const struct flexibility_place *place,
-                          double *nodal, double *beyond)
+                          const bool *held, double *nodal, double *beyond)
 {
     const struct solid_mesh *mesh = rule->mesh;
     memset(beyond, 0, 3 * (size_t)place->loads * mesh->node_count * sizeof *beyond);
-    move_nodes(mesh, place, nodal);
+    move_nodes(mesh, place, held, nodal);
     for (size_t e = 0; e < mesh->element_count; e++) {
         double offset[3];
         sub3(rule->centres[e], place->load.point, offset);
@@ -619,8 +625,9 @@ void field_integrals_parts(const struct volume_rule *rule, const struct flexibil
 static bool has_held(const struct solid_mesh *mesh, size_t element, const bool *held)
 {
     for (size_t i = mesh->first[element]; i < mesh->first[element + 1]; i++)
-        if (held[3 * mesh->nodes[i]])
-            return true;
+        for (size_t k = 0; k < 3; k++)
+            if (held[3 * mesh->nodes[i] + k])
+                return true;
     return false;
 }
 

@@ -39,11 +39,12 @@ void field_integrals_surface(const struct surface_rule *rule, const struct flexi
                              size_t n, double *forces, load_pairs values);
 
 /* The fields' displacements u as mass feels them, the integral of rho N^T u, in two parts: u at the
- * nodes (`nodal`, [loads][3 node_count], m/N), which M, the mesh's mass matrix, makes a momentum
- * of; and `beyond`, as large, kg m/N, what the integral is beyond that. It is 0 but at elements
- * near the place, as the shape functions of others hold the field. */
+ * nodes (`nodal`, [loads][3 node_count], m/N; 0 right beside the place but where `held` (NULL:
+ * nowhere) says so), which M, the mesh's mass matrix, makes a momentum of; and `beyond`, as large,
+ * kg m/N, what the integral is beyond that. It is 0 but at elements near the place, as the shape
+ * functions of others hold the field. */
 void field_integrals_mass(const struct volume_rule *rule, const struct flexibility_place *place,
-                          double *nodal, double *beyond);
+                          const bool *held, double *nodal, double *beyond);
 
 /* Where other materials than the place's lie, the field's stress there is not the half-space's: D'
  * the place's elasticity, D the part's, e the field's strain. Adds the nodal forces of (D' - D) e
@@ -52,7 +53,7 @@ void field_integrals_mass(const struct volume_rule *rule, const struct flexibili
 void field_integrals_parts(const struct volume_rule *rule, const struct flexibility_place *place,
                            double *forces, load_pairs values);
 
-/* Held nodes are shifted by each load (`shifts`, [loads][3 node_count], zero at all others):
+/* Held freedoms are shifted by each load (`shifts`, [loads][3 node_count], zero at all others):
  * subtracts the forces K times shifts from forces, and their work on the shifts from `values`. */
 void field_integrals_shifts(const struct volume_rule *rule, const bool *held, int loads,
                             const double *shifts, double *forces, load_pairs values);

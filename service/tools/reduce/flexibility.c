@@ -173,7 +173,8 @@ static void integrate_field(const struct flexibility *f, const struct flexibilit
     field_integrals_surface(&f->surface, place, f->n, columns->forces, values);
     if (f->body.mesh->part_count > 1)
         field_integrals_parts(&f->volume, place, columns->forces, values);
-    field_integrals_mass(&f->volume, place, columns->nodal, columns->beyond);
+    field_integrals_mass(&f->volume, place, f->body.matrices->held, columns->nodal,
+                         columns->beyond);
     hold_nodes(f, place, columns, values);
 }
 
