@@ -448,12 +448,12 @@ static bool improve_tangents(struct contact_step *step, const struct node_proble
 }
 
 /* The forces at the nodes of friction `i` by the present indentations and displacements. */
-static void walk_nodes(struct contact_step *step, const struct scene *scene, size_t i, int parts,
+static void walk_nodes(struct contact_step *step, const struct scene *scene, size_t i, bool halved,
                        const struct contact_start *start)
 {
     size_t row = scene_tangent(scene, i);
     const struct friction_way way = way_of(step, scene, i, start);
-    friction_step_nodes(&step->friction, i, &way, parts, step->force[scene->friction[i].contact],
+    friction_step_nodes(&step->friction, i, &way, halved, step->force[scene->friction[i].contact],
                         step->force + row, step->stiffness + row);
 }
 
@@ -482,7 +482,7 @@ static void follow_tangents(struct contact_step *step, const struct scene *scene
 
 /* Rounds until the next one would move the forces by less than `last` of their limits, as the last
  * two tell; they then follow the last change by their slopes. The first round walks through the
- * nodes alone. */
+ * nodes alone, its ways not halved. */
 static enum contact_step_end solve_with_friction(struct contact_step *step,
                                                  const struct node_problem *problem,
                                                  const struct contact_start *start, double last)
@@ -497,7 +497,7 @@ static enum contact_step_end solve_with_friction(struct contact_step *step,
         if (end != STEP_SOLVED)
             return end;
         for (size_t i = 0; i < count; i++)
-            walk_nodes(step, scene, i, round == 0 ? 1 : FRICTION_PARTS, start);
+            walk_nodes(step, scene, i, round > 0, start);
         if (!improve_tangents(step, problem))
             return STEP_UNSOLVED;
         step->iterations++;

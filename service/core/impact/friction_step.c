@@ -23,13 +23,11 @@ static void set_polynomials(struct friction_points *points)
     for (int i = 0; i < NODES; i++)
         place[i + 1] = collocation.node[i];
     place[NODES + 1] = 1.0;
-    for (int p = 0; p < FRICTION_PARTS; p++) {
-        double share = (p + 1.0) / FRICTION_PARTS;
-        for (int i = 0; i < NODES; i++)
-            set_point(&points->to_node[i][p], place, INNER,
-                      place[i] + share * (place[i + 1] - place[i]));
-        set_point(&points->to_end[p], place, ALL, place[NODES] + share * (1.0 - place[NODES]));
-    }
+    for (int i = 0; i < NODES; i++)
+        set_point(&points->to_node[i], place, INNER, place[i + 1]);
+    for (int i = 1; i < NODES; i++)
+        set_point(&points->to_middle[i - 1], place, INNER, 0.5 * (place[i] + place[i + 1]));
+    set_point(&points->to_end, place, ALL, 1.0);
 }
 
 /* The error of a sphere's tangential speed after the impact, over the coefficient's speed, is
@@ -119,15 +117,16 @@ static double solved_share(const struct friction *friction, double normal)
 }
 
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
-                         int parts, const double normal[NODES], double (*force)[NODES],
+                         bool halved, const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES])
 {
     struct friction *along = &step->along[i];
     double sum[2];
     friction_copy(along, &step->now[i]);
     for (int node = 0; node < NODES; node++) {
-        for (int p = FRICTION_PARTS - parts; p < FRICTION_PARTS; p++)
-            walk_to(along, way, &step->points->to_node[node][p], false, sum);
+        if (halved && node > 0)
+            walk_to(along, way, &step->points->to_middle[node - 1], false, sum);
+        walk_to(along, way, &step->points->to_node[node], false, sum);
         double share = solved_share(along, normal[node]);
         for (int j = 0; j < 2; j++) {
             force[j][node] = share * sum[j];
@@ -142,8 +141,7 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
 {
     struct friction *after = &step->after[i];
     friction_copy(after, &step->along[i]);
-    for (int p = 0; p < FRICTION_PARTS; p++)
-        walk_to(after, way, &step->points->to_end[p], true, force);
+    walk_to(after, way, &step->points->to_end, true, force);
     double share = solved_share(after, normal);
     for (int j = 0; j < 2; j++) {
         force[j] *= share;

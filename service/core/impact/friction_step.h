@@ -13,9 +13,6 @@
 #include "impact/coulomb.h"
 #include "impact/scene.h"
 
-/* Parts of a way between two nodes. */
-enum { FRICTION_PARTS = 2 };
-
 struct friction_step {
     size_t count; /* contacts with friction */
     bool plain;
@@ -29,13 +26,14 @@ struct friction_step {
 };
 
 /* Lagrange's polynomials and their slopes at the points of the ways to the nodes, through the start
- * and the nodes; on the way from the last node to the end through the end as well. */
+ * and the nodes; at the end through the end as well. The ways between two nodes may be halved;
+ * those from the start to the first and from the last to the end are shorter than these halves. */
 struct friction_point {
     double value[NODES + 2], slope[NODES + 2];
 };
 
 struct friction_points {
-    struct friction_point to_node[NODES][FRICTION_PARTS], to_end[FRICTION_PARTS];
+    struct friction_point to_node[NODES], to_middle[NODES - 1], to_end;
 };
 
 /* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out
@@ -48,11 +46,11 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
 void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
                          const double *depth);
 
-/* Walks friction `i` from the present to the nodes, from one to the next in `parts`, 1 or
- * FRICTION_PARTS: force[j][node] becomes the force of row t_j, N, stiffness[j][node] its slope by
- * that row's d, N/m. `normal`: the contact's forces there, as the iteration left them. */
+/* Walks friction `i` from the present to the nodes, where `halved` in two parts from one to the
+ * next: force[j][node] becomes the force of row t_j, N, stiffness[j][node] its slope by that row's
+ * d, N/m. `normal`: the contact's forces there, as the iteration left them. */
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
-                         int parts, const double normal[NODES], double (*force)[NODES],
+                         bool halved, const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES]);
 
 /* The same from the last node to the end. */
