@@ -29,6 +29,10 @@ static const double AFTER_ALL = 1e-9;
 /* Share of the law's compliance that a negative series compliance may cancel. */
 static const double BEARABLE = 0.5;
 
+/* Of functions that only friction needs: inline they cost each step without it twenty instructions
+ * more, for registers. */
+#define NOT_INLINE __attribute__((noinline))
+
 static inline double larger(double a, double b)
 {
     return b > a || isnan(b) ? b : a;
@@ -62,6 +66,9 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
         if (!step->before)
             return false;
         step->change = step->before + n;
+        step->friction = arena_take(arena, 1, sizeof *step->friction);
+        if (!step->friction || !friction_step_create(step->friction, scene, accuracy, arena))
+            return false;
     }
     step->force = step->indentation + n;
     step->stiffness = step->force + n;
@@ -70,8 +77,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_indentation = step->end_force + n;
     step->base = step->end_indentation + n;
     return coupling_create(&step->coupling, scene, arena) &&
-           midpoint_create(&step->midpoint, scene, arena) &&
-           friction_step_create(&step->friction, scene, accuracy, arena);
+           midpoint_create(&step->midpoint, scene, arena);
 }
 
 /* Approaches at the nodes and the end if no force acted on this step. */
@@ -94,12 +100,15 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
     }
 }
 
-/* Of plain friction only the changes of d count: it begins anew at each step until the phase ends,
- * so that they lose no digits to the way so far. */
-static void rebase_tangents(struct contact_step *step, const struct scene *scene,
-                            struct motion *motion)
+/* The friction's histories go on from the end, too. Of plain friction only the changes of d count:
+ * it begins anew at each step until the phase ends, so that they lose no digits to the way so far.
+ */
+NOT_INLINE static void take_with_friction(struct contact_step *step, const struct scene *scene,
+                                          struct motion *motion)
 {
-    for (size_t row = scene->contacts; row < scene_rows(scene); row++) {
+    midpoint_take(&step->midpoint, scene, motion, step->force);
+    friction_step_take(step->friction);
+    for (size_t row = scene->contacts; scene->plain && row < scene_rows(scene); row++) {
         motion->gap[row] += step->end_indentation[row];
         step->base[row] += step->end_indentation[row];
         step->end_indentation[row] = 0.0;
@@ -108,9 +117,10 @@ static void rebase_tangents(struct contact_step *step, const struct scene *scene
 
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
-    midpoint_take(&step->midpoint, scene, motion, step->force);
-    if (scene->plain)
-        rebase_tangents(step, scene, motion);
+    if (scene->frictions)
+        take_with_friction(step, scene, motion);
+    else
+        midpoint_take(&step->midpoint, scene, motion, step->force);
 }
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
@@ -453,7 +463,7 @@ static void walk_nodes(struct contact_step *step, const struct scene *scene, siz
 {
     size_t row = scene_tangent(scene, i);
     const struct friction_way way = way_of(step, scene, i, start);
-    friction_step_nodes(&step->friction, i, &way, halved, step->force[scene->friction[i].contact],
+    friction_step_nodes(step->friction, i, &way, halved, step->force[scene->friction[i].contact],
                         step->force + row, step->stiffness + row);
 }
 
@@ -537,7 +547,7 @@ static double end_tangents(struct contact_step *step, const struct scene *scene,
     double limit = friction->coefficient * step->end_force[friction->contact];
     double moved = 0.0, stiffness[2];
     const struct friction_way way = way_of(step, scene, i, start);
-    friction_step_end(&step->friction, i, &way, step->end_force[friction->contact],
+    friction_step_end(step->friction, i, &way, step->end_force[friction->contact],
                       step->end_force + row, stiffness);
     double excess[2];
     for (size_t j = 0; j < 2; j++)
@@ -602,7 +612,7 @@ static void find_reaches(struct contact_step *step, const struct scene *scene,
         double reach = 0.0;
         for (size_t r = row; r < row + 2; r++)
             reach = larger(reach, fabs(motion->gap[r]) + fabs(step->target[r][NODES]));
-        step->friction.coulomb.reach[i] = reach;
+        step->friction->coulomb.reach[i] = reach;
     }
 }
 
@@ -638,9 +648,9 @@ static double slide_all(struct contact_step *step, const struct node_problem *pr
         memcpy(before, force, sizeof before);
         find_slides(step, problem);
         const struct friction_way way = way_of(step, scene, i, start);
-        if (!coulomb_solve(&step->friction.coulomb, scene, i, problem->level, &way, normal, force))
+        if (!coulomb_solve(&step->friction->coulomb, scene, i, problem->level, &way, normal, force))
             return NAN;
-        double rounding = step->friction.coulomb.rounding[i];
+        double rounding = step->friction->coulomb.rounding[i];
         of.limit[i] = of.moved[i] = 0.0;
         for (int j = 0; j < NODES; j++) {
             of.limit[i] = larger(of.limit[i], friction->coefficient * normal[j]);
@@ -662,7 +672,7 @@ static enum contact_step_end solve_plain(struct contact_step *step,
     const struct scene *scene = problem->scene;
     size_t rows = scene_rows(scene);
     double work = (double)(scene->frictions * rows * rows);
-    if (!coulomb_prepare(&step->friction.coulomb, scene, problem->coupling, problem->level,
+    if (!coulomb_prepare(&step->friction->coulomb, scene, problem->coupling, problem->level,
                          step->arena))
         return STEP_MEMORY;
     for (int round = 0; round < MOST_ROUNDS; round++) {
@@ -705,30 +715,29 @@ static bool end_plain(struct contact_step *step, const struct scene *scene,
             scene->residual[row * (scene_rows(scene) + 1)] * step->end_force[row];
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct friction_way way = way_of(step, scene, i, start);
-        coulomb_end(&step->friction.coulomb, i, &way, step->force + scene_tangent(scene, i));
+        coulomb_end(&step->friction->coulomb, i, &way, step->force + scene_tangent(scene, i));
     }
     return true;
 }
 
 /* ---- A step ---- */
 
-/* Forces and indentations at the nodes. */
-static enum contact_step_end solve_nodes(struct contact_step *step,
-                                         const struct node_problem *problem,
-                                         const struct contact_start *start)
+/* Forces and indentations at the nodes with friction. */
+NOT_INLINE static enum contact_step_end solve_nodes(struct contact_step *step,
+                                                    const struct node_problem *problem,
+                                                    const struct motion *motion,
+                                                    const struct contact_start *start)
 {
-    if (!problem->scene->frictions)
-        return solve_normals(step, problem, start);
-    return (problem->scene->plain ? solve_plain : solve_with_friction)(step, problem, start,
-                                                                       step->last_slide);
+    if (!problem->scene->plain)
+        return solve_with_friction(step, problem, start, step->last_slide);
+    find_reaches(step, problem->scene, motion);
+    return solve_plain(step, problem, start, step->last_slide);
 }
 
 /* And at the end. */
-static bool solve_end(struct contact_step *step, const struct scene *scene,
-                      const struct contact_start *start)
+NOT_INLINE static bool solve_end(struct contact_step *step, const struct scene *scene,
+                                 const struct contact_start *start)
 {
-    if (!scene->frictions)
-        return find_end(step, scene);
     return scene->plain ? end_plain(step, scene, start)
                         : end_with_friction(step, scene, start, step->last_slide);
 }
@@ -737,6 +746,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
 {
+    size_t rows = scene_rows(scene);
     /* a level that is new to the scene */
     if (!step->coupling.level[level]) {
         enum percuss_status status =
@@ -746,9 +756,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     }
     /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
-    if (scene->plain)
-        find_reaches(step, scene, motion);
-    predict_all(step, scene_rows(scene), start, level);
+    predict_all(step, rows, start, level);
     /* forces and indentations at the nodes */
     const struct node_problem problem = {
         .scene = scene,
@@ -758,14 +766,16 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .taken = step->taken,
         .last_change = step->last_change,
     };
-    enum contact_step_end end = solve_nodes(step, &problem, start);
+    enum contact_step_end end = scene->frictions ? solve_nodes(step, &problem, motion, start)
+                                                 : solve_normals(step, &problem, start);
     if (end != STEP_SOLVED)
         return end;
     if (step->midpoint.damped)
         step->loss = contact_step_loss(scene, motion, level, step->force);
     /* and at the end, from the cubics' values */
     find_approaches(step, scene, level);
-    for (size_t c = 0; c < scene_rows(scene); c++)
-        step->end_indentation[c] = collocation_last(step->indentation[c]);
-    return solve_end(step, scene, start) ? STEP_SOLVED : STEP_UNSOLVED;
+    for (size_t r = 0; r < rows; r++)
+        step->end_indentation[r] = collocation_last(step->indentation[r]);
+    bool ends = scene->frictions ? solve_end(step, scene, start) : find_end(step, scene);
+    return ends ? STEP_SOLVED : STEP_UNSOLVED;
 }

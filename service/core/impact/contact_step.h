@@ -34,7 +34,7 @@ struct contact_step {
      * and their forces' relative change that ends the rounds */
     double (*before)[NODES], (*change)[NODES];
     double last_slide;
-    struct friction_step friction;
+    struct friction_step *friction; /* NULL: without friction */
     struct arena *arena;
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): none */
 };

@@ -47,8 +47,6 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     size_t n = scene->frictions;
     step->count = n;
     step->plain = scene->plain;
-    if (n == 0)
-        return true;
     if (step->plain) {
         bool made = coulomb_create(&step->coulomb, scene, arena);
         step->stuck = step->coulomb.stuck;

@@ -557,7 +557,7 @@ static double tangents_roughness(const struct modal_run *run, double group)
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct scene_friction *friction = &scene->friction[i];
         double limit = friction->coefficient * force_scale(run, friction->contact, group);
-        double rounding = friction_step_rounding(&run->step.friction, i);
+        double rounding = friction_step_rounding(run->step.friction, i);
         for (size_t t = 0; t < 2; t++) {
             double rough = rough_part(run, scene_tangent(scene, i) + t, scene->contacts > 1);
             worst = larger(worst, (rough - rounding) / limit);
@@ -628,7 +628,7 @@ static void keep_slide(struct modal_run *run, size_t contact, double h)
     keep_work(run, contact, h);
     track_slide(&run->march.outcome->tracks[contact], h, run->step.force[contact],
                 run->step.force + scene_tangent(scene, friction),
-                run->step.friction.stuck[friction]);
+                run->step.friction->stuck[friction]);
 }
 
 /* The books of one contact after a step: sub-impacts begin, go on, end (also all of it within one
@@ -678,8 +678,6 @@ static void accept(struct modal_run *run, int level)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation,
                       run->march.scene.contacts, outcome->tracks);
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
-    if (run->march.scene.frictions)
-        friction_step_take(&run->step.friction);
     run->march.damping += run->step.loss;
     outcome->steps++;
     for (size_t c = 0; c < run->march.scene.contacts; c++)
@@ -718,7 +716,7 @@ static void begin_friction(struct modal_run *run)
     }
     for (size_t c = 0; c < scene->contacts; c++)
         run->depth[c] = larger(impact_scale_of(scene, c, fastest).indentation, pressed(scene, c));
-    friction_step_begin(&run->step.friction, scene, at, run->depth);
+    friction_step_begin(run->step.friction, scene, at, run->depth);
 }
 
 /* The touch that ended the flight, and starting values of the contacts that are still open. */
@@ -831,7 +829,7 @@ static void end_friction(struct modal_run *run)
     const struct scene *scene = &run->march.scene;
     struct impact_outcome *outcome = run->march.outcome;
     for (size_t i = 0; i < scene->frictions; i++) {
-        const struct friction_step *friction = &run->step.friction;
+        const struct friction_step *friction = run->step.friction;
         outcome->slid += friction_step_lost(friction, i);
         if (!run->march.closed[scene->friction[i].contact])
             continue;

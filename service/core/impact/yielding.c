@@ -271,7 +271,8 @@ static void yield(struct yielding *yielding, size_t contact, double indentation)
     outcome->motion.gap[contact] += deeper;
     outcome->tracks[contact].deepened += deeper;
     yielding->now[contact].indentation -= deeper;
-    friction_step_deepen(&yielding->step->friction, yielding->scene, contact, deeper);
+    if (yielding->scene->frictions)
+        friction_step_deepen(yielding->step->friction, yielding->scene, contact, deeper);
 }
 
 /* The largest indentation of a contact that is near its peak, by the motion at this instant. If the

@@ -87,15 +87,15 @@ double problem_row_scale(const struct problem *problem, size_t row)
 
 double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
 {
+    const struct row_side of[2] = {problem_row_side(problem, i, 0),
+                                   problem_row_side(problem, i, 1)};
+    const struct row_side by[2] = {problem_row_side(problem, j, 0),
+                                   problem_row_side(problem, j, 1)};
     double sum = 0.0;
-    for (int p = 0; p < 2; p++) {
-        struct row_side a = problem_row_side(problem, i, p);
-        for (int q = 0; q < 2; q++) {
-            struct row_side b = problem_row_side(problem, j, q);
-            if (a.body == b.body)
-                sum += rigid_inverse_mass(problem->bodies[a.body], a.point, a.direction, b.point,
-                                          b.direction);
-        }
-    }
+    for (int p = 0; p < 2; p++)
+        for (int q = 0; q < 2; q++)
+            if (of[p].body == by[q].body)
+                sum += rigid_inverse_mass(problem->bodies[of[p].body], of[p].point, of[p].direction,
+                                          by[q].point, by[q].direction);
     return sum;
 }
