@@ -51,7 +51,7 @@ static void balls_at_angles(void **state)
                      (t ? 1e-4 : 1e-3) + 5e-5);
             near(contact->slip_after[1], 0.0, 1e-12);
             near(contact->restitution, 1.0, t ? 1e-5 : 1e-4);
-            /* by the books of the cells, whose walk has two parts a node */
+            /* by the books of the cells, whose walk has two parts from node to node */
             near(result.energy.closure / result.energy.available, 0.0, t ? 5e-5 : 2e-4);
             assert_int_equal(contact->friction_state,
                              before > 4.0 * KAI ? PERCUSS_FRICTION_STATE_SLID
@@ -177,12 +177,13 @@ static void bars_dropped_askew(void **state)
     drop_all(0.6, longer, COUNT(longer));
 }
 
-/* The same by CVODE, which shares no integration in time with the modal method: several blows, each
- * with its books. */
+/* The same by CVODE, which shares no integration in time with the modal method: one blow and three,
+ * each with its books. At 1e-2 it leaves 2e-5 of the restitutions; at 1e-3 its sequences of steps
+ * take half a minute, and at 65 degrees twenty seconds at 1e-2 already. */
 static void bars_by_cvode(void **state)
 {
     (void)state;
-    static const double degrees[] = {75.0, 65.0, 60.0};
+    static const double degrees[] = {75.0, 60.0};
     static struct solve_result modal, cvode;
     struct sub_impact blows[PERCUSS_MAX_SUB_IMPACTS]; /* a workspace holds its last result's */
     struct lab *lab = drop_lab(0.2);
@@ -193,7 +194,7 @@ static void bars_by_cvode(void **state)
         lab_solve(lab, &request, &modal);
         memcpy(blows, b->sub_impacts, b->sub_impact_count * sizeof *blows);
         request.options.method = PERCUSS_METHOD_CVODE;
-        request.options.tolerance = 1e-3; /* its sequences of steps take a minute at 1e-4 */
+        request.options.tolerance = 1e-2;
         lab_solve(lab, &request, &cvode);
         measured("restitution", a->restitution, b->restitution, 1e-4);
         measured("kinematic", a->restitution_kinematic, b->restitution_kinematic, 1e-4);
