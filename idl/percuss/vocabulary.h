@@ -32,7 +32,8 @@
     X(CLOSED_FORM, "closed-form")                                                                  \
     X(TABLE, "table")                                                                              \
     X(CONCURRENT_FE, "concurrent-fe")                                                              \
-    X(COMPLETE_FE, "complete-fe")
+    X(COMPLETE_FE, "complete-fe")                                                                  \
+    X(VISCOELASTIC, "viscoelastic")
 
 #define PERCUSS_METHOD_LIST(X)                                                                     \
     X(MODAL, "modal")                                                                              \

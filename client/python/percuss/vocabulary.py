@@ -118,6 +118,7 @@ class ContactModel(Choice):
     TABLE = 3
     CONCURRENT_FE = 4
     COMPLETE_FE = 5
+    VISCOELASTIC = 6
 
 
 class Method(Choice):

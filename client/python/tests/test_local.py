@@ -87,11 +87,16 @@ class Local(unittest.TestCase):
                 said = {}
                 for wall in ("wall", "stop", "mat"):
                     question = percuss.contact_pair(bodies["ball"], bodies[wall], speed=0.3)
+                    question.options.contact_model = percuss.ContactModel.HERTZ
                     said[wall] = " ".join(local.solve(question).raise_for_status().warnings)
                 self.assertNotIn("of itself", said["wall"] + said["mat"])
                 self.assertIn("what stop loses of itself in the contact (loss_factor 0.06)", said["stop"])
                 self.assertIn("as soft as that of mat", said["mat"])
                 question = percuss.contact_pair(bodies["ball"], bodies["stop"], speed=0.3)
+                lossy = local.solve(question).raise_for_status()
+                self.assertEqual(lossy.model.contact_model, percuss.ContactModel.VISCOELASTIC)
+                self.assertLess(lossy.contacts[0].restitution, 0.95)
+                question.options.contact_model = percuss.ContactModel.HERTZ
                 speed = percuss.Input("speed", percuss.Distribution.UNIFORM, 0.2, 0.4)
                 report = percuss.ensemble(percuss.Ensemble(question, [speed], samples=50), local)
                 self.assertTrue(any("of 50, first 0: contacts[0]: what stop loses" in one for one in report.warnings))

@@ -26,6 +26,7 @@ struct contact_law;
 struct hertz_contact;
 struct material;
 struct plastic_curve;
+struct relaxation;
 
 /* Time that an impact takes, which selects its thread: any thread, even the one that reads
  * requests; a worker; the thread of computations that take seconds. */
@@ -46,14 +47,10 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
  * Indentations count from the bottom of the dent in the law's history. Between updates of
  * its history every law is elastic.
  *
- * A law that depends on the rate (Hunt and Crossley 1975, viscoelastic) would need one more
- * operation, NULL for all others: a force of (law, indentation, rate), never negative, with both
- * slopes; `force` is its elastic part, and its memory is the history, updated between steps. The
- * march would have to pass the rates at the nodes, the derivative of the cubic through the
- * indentations there (find_rate in impact/yielding.c: a fixed matrix over the step's length); to
- * add to each Newton matrix the slope by the rate times that matrix, where now only the diagonal of
- * the stiffness stands (node_solver.c, in a copy of solve_one for such laws); and to count the work
- * of the force less `force` as dissipated, as that of contact_law_yield is. */
+ * A law that remembers (viscoelastic bodies) has a force of the whole way since the touch: `force`
+ * and `stored` are those of a sudden indentation and of what comes back of one that is held, and
+ * its own force is contact/memory.h, which impact/memory_step.h follows along the steps of a single
+ * contact without friction. */
 struct contact_law_operations {
     enum percuss_contact_model model;
     enum contact_effort effort;
@@ -68,6 +65,7 @@ struct contact_law_operations {
     const char *title; /* for messages */
     bool three_halves; /* force = d^(3/2) times a function that is smooth at d = 0 */
     bool elliptic;     /* exact for elliptic contacts; else by the sphere that is as stiff */
+    bool remembers;    /* its force depends on the way, not on the indentation alone */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);
     /* The same at several indentations at once; NULL: one by one. */
@@ -85,7 +83,7 @@ struct contact_law_operations {
 struct contact_law {
     const struct contact_law_operations *operations;
     double parameters[CONTACT_LAW_PARAMETERS];
-    const void *table; /* of a tabulated law, borrowed */
+    const void *table; /* of a tabulated law, or the relaxation of one that remembers; borrowed */
     struct contact_history history;
 };
 
@@ -94,6 +92,10 @@ struct contact_law contact_law_hertz(double stiffness);
 
 /* F = stiffness d, N/m: for verification against wave solutions. */
 struct contact_law contact_law_linear(double stiffness);
+
+/* Hertz's contact of viscoelastic bodies: `stiffness` (N/m^(3/2)) of a sudden indentation, and the
+ * relaxation of both bodies together, borrowed. */
+struct contact_law contact_law_viscoelastic(double stiffness, const struct relaxation *relaxation);
 
 /* The operations of each model that can be requested, with its name in capitals. */
 #define CONTACT_LAW_DECLARATION(name, text)                                                        \

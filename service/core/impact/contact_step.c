@@ -76,7 +76,8 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_force = step->approach + n;
     step->end_indentation = step->end_force + n;
     step->base = step->end_indentation + n;
-    return coupling_create(&step->coupling, scene, arena) &&
+    return memory_step_create(&step->memory, scene, arena) &&
+           coupling_create(&step->coupling, scene, arena) &&
            midpoint_create(&step->midpoint, scene, arena);
 }
 
@@ -335,6 +336,9 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
  * as the nodes. */
 static inline bool find_end(struct contact_step *step, const struct scene *scene)
 {
+    if (step->memory)
+        return memory_step_end(step->memory, step->level, step->indentation[0], step->approach[0],
+                               step->last_change, step->end_indentation, step->end_force);
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))
@@ -367,11 +371,28 @@ static enum contact_step_end solve_together(struct contact_step *step,
                : STEP_UNSOLVED;
 }
 
+/* Those of a single contact that remembers. */
+static enum contact_step_end solve_memory(struct contact_step *step,
+                                          const struct node_problem *problem)
+{
+    const double(*own)[NODES] = coupling_own(problem->coupling, problem->level, 0)->by;
+    if (!memory_step_prepare(step->memory, problem->level, step->arena))
+        return STEP_MEMORY;
+    bool solved =
+        memory_step_solve(step->memory, problem->level, own, problem->target[0], step->last_change,
+                          step->indentation[0], step->force[0], &step->iterations);
+    for (int i = 0; i < NODES; i++)
+        step->stiffness[0][i] = step->memory->slope[i][i];
+    return solved ? STEP_SOLVED : STEP_UNSOLVED;
+}
+
 /* Forces and indentations of the normals at the nodes. */
 static inline enum contact_step_end solve_normals(struct contact_step *step,
                                                   const struct node_problem *problem,
                                                   const struct contact_start *start)
 {
+    if (step->memory)
+        return solve_memory(step, problem);
     if (node_solve(problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_SOLVED;
     return solve_together(step, problem, start);
@@ -766,6 +787,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .taken = step->taken,
         .last_change = step->last_change,
     };
+    step->level = level;
     enum contact_step_end end = scene->frictions ? solve_nodes(step, &problem, motion, start)
                                                  : solve_normals(step, &problem, start);
     if (end != STEP_SOLVED)

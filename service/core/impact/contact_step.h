@@ -11,6 +11,7 @@
 #include "base/watch.h"
 #include "impact/coupling.h"
 #include "impact/friction_step.h"
+#include "impact/memory_step.h"
 #include "impact/midpoint.h"
 
 struct contact_step {
@@ -21,7 +22,9 @@ struct contact_step {
     double loss;                /* energy lost to damping, J */
     unsigned long iterations;   /* Newton's, since creation */
     double last_change;         /* relative, see node_solver.h */
+    int level;                  /* of the step just solved */
 
+    struct memory_step *memory; /* of a contact that remembers, else NULL */
     struct midpoint midpoint;
     struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */

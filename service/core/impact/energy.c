@@ -105,6 +105,8 @@ static double stored_energy(const struct scene *scene, const struct contact_law 
         const struct contact_law *law = &laws[c];
         double stiffness;
         force[c] = contact_law_force(law, last->indentation[c], &stiffness);
+        if (law->operations->remembers && last->force)
+            force[c] = last->force[c];
         sum += law->operations->stored(law, last->indentation[c]);
     }
     for (size_t i = 0; i < 2 * scene->frictions; i++)
@@ -147,8 +149,9 @@ bool energy_audit(const struct scene *scene, const struct energy_end *last, stru
                     (outcome->laws[c].history.dent - scene->laws[c].history.dent);
 
     struct impact_energy *energy = &outcome->energy;
-    *energy = (struct impact_energy){
-        .damping = last->damping, .plastic = outcome->plastic, .friction = outcome->slid};
+    *energy = (struct impact_energy){.damping = last->damping + outcome->relaxed,
+                                     .plastic = outcome->plastic,
+                                     .friction = outcome->slid};
     /* the acceleration is a force W^+ a, which works over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
                         initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel) +

@@ -10,7 +10,8 @@
 /* The end of a march. */
 struct energy_end {
     const double
-        *indentation; /* [contact], local, of those that are still closed; 0 of the others */
+        *indentation;    /* [contact], local, of those that are still closed; 0 of the others */
+    const double *force; /* [contact] of those that remember, N; NULL: none does */
     const double *tangential; /* [2 frictions]: forces of the tangents, N; NULL: without friction */
     double damping;           /* lost so far, J */
 };

@@ -29,7 +29,7 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
     outcome->group = scene->group;
     outcome->groups = scene->groups;
     outcome->steps = outcome->rejected = 0;
-    outcome->plastic = outcome->slid = outcome->sheared = 0.0;
+    outcome->plastic = outcome->relaxed = outcome->slid = outcome->sheared = 0.0;
     outcome->too_stiff = false;
     for (size_t c = 0; c < scene->contacts; c++)
         track_clear(&outcome->tracks[c]);

@@ -169,7 +169,8 @@ static enum percuss_status finish(struct march *march, struct arena *arena)
     outcome->effort = march->used;
     if (outcome->time_shift == 0.0)
         outcome->time_shift = first_touch(march);
-    const struct energy_end end = {march->indentation, march->tangential, march->damping};
+    const struct energy_end end = {march->indentation, march->force, march->tangential,
+                                   march->damping};
     if (!energy_audit(march->stated, &end, arena, outcome))
         return pace_fault(march->fault, PERCUSS_INTERNAL);
     return pace_status(march->pace);

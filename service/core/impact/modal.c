@@ -75,6 +75,10 @@ static const struct profile_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
  * ones (below), as with equal steps both solutions have the same error. */
 static const struct profile_limits several_compared = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
 
+/* The force of a contact that remembers ends with a slope, not like t^(3/2): a step over its end
+ * leaves some 0.06 of the square of its share in the impulse. */
+static const double PARTING = 1.0;
+
 /* Whether a scene has several contacts and none yields: yielding depends on the largest force and
  * needs more care. */
 static bool is_elastic_group(const struct scene *scene)
@@ -95,9 +99,10 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
         limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
+    double event = scene->laws[0].operations->remembers ? PARTING : limits->event;
     return (struct step_limits){
         .roughness = fmin(limits->roughest, limits->roughness * root * root),
-        .event_share = fmin(limits->longest_event, limits->event * half),
+        .event_share = fmin(limits->longest_event, event * half),
         .opening_share = fmin(limits->longest_opening, limits->opening * half),
         .coupling = fmin(CLOSEST, COUPLING * root),
     };
@@ -483,6 +488,8 @@ static bool unload(struct modal_run *run)
 static void open_contact(struct modal_run *run, size_t contact, double time, double rate)
 {
     struct march *march = &run->march;
+    if (run->step.memory)
+        memory_step_begin(run->step.memory, &march->scene.laws[contact]);
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
     run->projects = step_limits_open(&run->limits, &march->scene, contact, &run->scales[contact]);
     run->longest[contact] =
@@ -579,6 +586,13 @@ static double step_roughness(const struct modal_run *run)
     return worst;
 }
 
+/* Whether a contact that remembers bears no force any more from within the step on, and did. */
+static bool parts(const struct modal_run *run)
+{
+    const struct memory_step *memory = run->step.memory;
+    return !memory->parted && !(run->step.end_force[0] > 0.0);
+}
+
 /* The only closed contact ends inside the step: the step is cut there, as its force has no
  * derivative there. While several are closed they open and close all the time, mostly with little
  * force: all of them are in the equations throughout, and roughness alone decides. */
@@ -586,6 +600,8 @@ static bool has_event(const struct modal_run *run)
 {
     size_t closed = 0;
     bool ends = false;
+    if (run->step.memory)
+        return parts(run);
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         closed += run->march.closed[c];
         ends = ends || (run->march.closed[c] && !(run->step.end_indentation[c] > 0.0));
@@ -631,6 +647,15 @@ static void keep_slide(struct modal_run *run, size_t contact, double h)
                 run->step.friction->stuck[friction]);
 }
 
+/* The instant at which the contact ended on a step that began at `start`. */
+static double end_of(const struct modal_run *run, const struct step_values *step, double start,
+                     double h)
+{
+    if (run->step.memory && run->step.memory->parted)
+        return run->step.memory->parted_at;
+    return start + h * (run->projects ? step_ends_release : step_values_release)(step);
+}
+
 /* The books of one contact after a step: sub-impacts begin, go on, end (also all of it within one
  * step of a group). */
 static void keep_books(struct modal_run *run, size_t c, double start, double h)
@@ -648,11 +673,29 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
         if (run->march.scene.frictions)
             keep_slide(run, c, h);
         if (end <= 0.0)
-            close_contact(run, c,
-                          start +
-                              h * (run->projects ? step_ends_release : step_values_release)(&step));
+            close_contact(run, c, end_of(run, &step, start, h));
     }
     run->now[c] = after;
+}
+
+/* The books of a contact that remembers: it parts before its indentation ends. */
+static void keep_memory(struct modal_run *run, double start, int level)
+{
+    struct memory_step *memory = run->step.memory;
+    struct track *track = &run->march.outcome->tracks[0];
+    const struct step_values step = {run->now[0].indentation, run->step.end_indentation[0],
+                                     run->step.indentation[0]};
+    const struct memory_taken taken = {.time = start,
+                                       .level = level,
+                                       .nodes = step.nodes,
+                                       .forces = run->step.force[0],
+                                       .start = step.start,
+                                       .end = step.end,
+                                       .end_rate =
+                                           step_values_after(&step, step_length(level)).rate,
+                                       .end_force = run->step.end_force[0]};
+    memory_step_take(memory, &taken);
+    track->largest_force = memory->largest;
 }
 
 /* Corrects the forces at the nodes where contacts begin or end, and at a single law's knots. */
@@ -680,6 +723,8 @@ static void accept(struct modal_run *run, int level)
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
     run->march.damping += run->step.loss;
     outcome->steps++;
+    if (run->step.memory)
+        keep_memory(run, start, level);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         keep_books(run, c, start, step_length(level));
     for (size_t r = run->march.scene.contacts; r < scene_rows(&run->march.scene); r++) {
@@ -838,6 +883,17 @@ static void end_friction(struct modal_run *run)
     }
 }
 
+/* A contact that remembers has lost the work on it, but for what a held one gives back. */
+static void end_memory(struct modal_run *run)
+{
+    const struct contact_law *law = &run->march.scene.laws[0];
+    if (!run->step.memory)
+        return;
+    run->march.outcome->relaxed =
+        run->step.memory->work - law->operations->stored(law, run->march.indentation[0]);
+    run->march.force = &run->step.memory->force;
+}
+
 /* The window ends: contacts under load yield up to here, and all store their indentation. */
 static void end_march(void *state)
 {
@@ -846,6 +902,7 @@ static void end_march(void *state)
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         run->march.indentation[c] = run->march.closed[c] ? run->now[c].indentation : 0.0;
     end_friction(run);
+    end_memory(run);
 }
 
 static bool run_create(struct modal_run *run, struct arena *arena)

@@ -37,7 +37,8 @@ static bool stays_elastic(const struct scene *scene)
 bool impact_is_rigid_pair(const struct scene *scene)
 {
     return scene_rows(scene) == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
-           scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 && stays_elastic(scene);
+           scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
+           !scene->laws[0].operations->remembers && stays_elastic(scene);
 }
 
 /* Integrals of a compression. */
@@ -138,6 +139,6 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     outcome->motion.gap_rate[0] = speed;
     outcome->motion.time = outcome->window = touch + 2.0 * half;
     static const double open_at_end = 0.0;
-    const struct energy_end end = {&open_at_end, NULL, 0.0};
+    const struct energy_end end = {&open_at_end, NULL, NULL, 0.0};
     return energy_audit(scene, &end, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }

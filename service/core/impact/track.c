@@ -30,7 +30,7 @@ void track_open(struct track *track, double time, double gap_rate)
 {
     track->open = (struct sub_impact){
         .start = time, .compression_end = time, .end = time, .gap_rate_before = gap_rate};
-    track->deepened = 0.0;
+    track->deepened = track->largest_force = 0.0;
     track->stuck = track->slid = false;
 }
 
@@ -205,6 +205,8 @@ void track_close(struct track *track, const struct contact_law *law, double time
     open->end = time;
     open->gap_rate_after = gap_rate;
     open->peak_force = contact_law_force(law, open->max_indentation - track->deepened, &stiffness);
+    if (law->operations->remembers)
+        open->peak_force = track->largest_force;
     track->impulse += open->impulse;
     for (int t = 0; t < 2; t++)
         track->tangential[t] += open->impulse_tangential[t];

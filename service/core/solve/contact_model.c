@@ -167,13 +167,93 @@ static double rigid_indentation(const struct problem *problem, size_t c)
     return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
 }
 
+/* ---- What the materials lose ---- */
+
+/* A body's relaxation, and its instantaneous modulus over `young`, which a loss factor is stated
+ * with: that of the contact's frequency. */
+static struct relaxation relaxation_of(const struct body *body, double omega, double *instantaneous)
+{
+    struct relaxation relaxation = {0};
+    *instantaneous = 1.0;
+    if (body->loss_factor > 0.0) {
+        relaxation = relaxation_constant(body->loss_factor, omega);
+        *instantaneous = 1.0 / relaxation_storage(&relaxation, omega);
+    }
+    return relaxation;
+}
+
+static bool states_loss(const struct problem *problem, size_t c)
+{
+    return problem_body(problem, c, 0)->loss_factor > 0.0 ||
+           problem_body(problem, c, 1)->loss_factor > 0.0;
+}
+
+/* Angular frequency of an elastic contact of the rigid masses, rad/s: pi over its duration. */
+static double frequency_of(const struct problem *problem, size_t c)
+{
+    double duration =
+        HERTZ_DURATION * rigid_indentation(problem, c) / fmax(-problem->gap_rate[c], 0.0);
+    return M_PI / duration;
+}
+
+/* Why a contact cannot lose what its materials do; NULL: it can. */
+static const char *why_lossless(const struct problem *problem)
+{
+    if (problem->request->options.method == PERCUSS_METHOD_CVODE)
+        return "options.method: must be modal";
+    if (problem->contact_count > 1)
+        return "contacts: must be one";
+    if (problem->friction_count > 0)
+        return "contacts[0].friction: must be left out";
+    if (!states_loss(problem, 0))
+        return "the material of a body must state a loss_factor above 0";
+    return NULL;
+}
+
+/* The law of the only contact, where its bodies state a loss. */
+static enum percuss_status find_lossy(struct problem *problem, struct fault *fault)
+{
+    struct contact_choice *choice = &problem->contact_model.choices[0];
+    bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
+    const char *why = why_lossless(problem);
+    if (why && asked)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "options.contact_model: viscoelastic: %s",
+                         why);
+    double omega = why ? NAN : frequency_of(problem, 0);
+    if (!(omega > 0.0) || !(asked || asked_of(problem)->yields_if_needed))
+        return PERCUSS_OK;
+    double compliance[2], before = 0.0;
+    struct relaxation own[2];
+    for (int which = 0; which < 2; which++) {
+        const struct material *material = problem_material(problem, 0, which);
+        double stiffer, at = (1.0 - material->poisson * material->poisson) / material->young;
+        own[which] = relaxation_of(problem_body(problem, 0, which), omega, &stiffer);
+        compliance[which] = at / stiffer;
+        before += at;
+    }
+    double sudden = compliance[0] + compliance[1];
+    choice->relaxation = relaxation_in_series(&own[0], compliance[0] / sudden, &own[1]);
+    choice->loss_factor = relaxation_loss_factor(&choice->relaxation, omega);
+    choice->lossy = contact_law_viscoelastic(problem->hertz[0].stiffness * before / sudden,
+                                             &choice->relaxation);
+    return PERCUSS_OK;
+}
+
+/* ---- The laws in use ---- */
+
 static void use_laws(struct problem *problem, bool yielding)
 {
     struct contact_model *model = &problem->contact_model;
     model->yielding = yielding;
-    for (size_t c = 0; c < problem->contact_count; c++)
-        model->laws[c] =
-            yielding ? model->choices[c].plastic : contact_law_hertz(problem->hertz[c].stiffness);
+    bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        const struct contact_choice *choice = &model->choices[c];
+        if (choice->lossy.operations && (asked || !yielding))
+            model->laws[c] = choice->lossy;
+        else
+            model->laws[c] =
+                yielding ? choice->plastic : contact_law_hertz(problem->hertz[c].stiffness);
+    }
 }
 
 enum percuss_status contact_model_choose(struct problem *problem,
@@ -198,6 +278,9 @@ enum percuss_status contact_model_choose(struct problem *problem,
         dented = dented || model->choices[c].dented;
         likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
     }
+    enum percuss_status status = find_lossy(problem, fault);
+    if (status)
+        return status;
     /* in use from the beginning where asked for, dented or likely */
     model->decided = !asked_of(problem)->yields_if_needed || dented;
     use_laws(problem, model->decided || likely);

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "contact/family.h"
 #include "impact/impact.h"
+#include "model/relaxation.h"
 #include "solve/problem.h"
 
 /* One contact. */
@@ -19,11 +20,15 @@ struct contact_choice {
     int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
     size_t dent;                /* index in that body's state of the dent that the law remembers */
     bool dented, tabulated;
-    bool family;                 /* the table is one of the family's */
-    bool both;                   /* ... where both bodies flow */
-    double outside;              /* ... and this far outside its axes */
-    struct contact_law compared; /* the family's law, where the closed form is used; or without
-                                    operations: there is none */
+    bool family;                  /* the table is one of the family's */
+    bool both;                    /* ... where both bodies flow */
+    double outside;               /* ... and this far outside its axes */
+    struct contact_law lossy;     /* with what the materials lose, in place of Hertz's; or without
+                                     operations: nothing is stated, or it cannot be */
+    struct relaxation relaxation; /* of that: both bodies' */
+    double loss_factor;           /* of both, at the contact's frequency */
+    struct contact_law compared;  /* the family's law, where the closed form is used; or without
+                                     operations: there is none */
 };
 
 /* Finds the laws that the request asks for, the likely ones where it leaves the choice, and makes

@@ -24,6 +24,9 @@ static struct body lossy(struct body body, double loss_factor)
     return body;
 }
 
+/* The law of the contacts. */
+static enum percuss_contact_model law = PERCUSS_CONTACT_HERTZ;
+
 /* A ball on a wall, at 1 m/s; the restitution that the model says it may be off by. */
 static double off_by(struct body ball, struct body wall, double tolerance)
 {
@@ -32,6 +35,7 @@ static double off_by(struct body ball, struct body wall, double tolerance)
     lab_add(lab, "wall", wall);
     struct solve_request request = strike(sphere_spot("ball", ball.radius), wall_spot("wall"), 1.0);
     request.options.tolerance = tolerance;
+    request.options.contact_model = law;
     lab_solve(lab, &request, &result);
     lab_free(lab);
     return result.restitution_model;
@@ -166,6 +170,7 @@ static void a_rod_gives_back_less(void **state)
     lab_add(lab, "ball", lossy(make_sphere(STEEL, 0.015), 0.1));
     lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.3);
+    request.options.contact_model = PERCUSS_CONTACT_HERTZ;
     lab_solve(lab, &request, &result);
     const struct sub_impact *blow = &result.contacts[0].sub_impacts[0];
     assert_int_equal(result.contacts[0].sub_impact_count, 1);
@@ -179,6 +184,62 @@ static void a_rod_gives_back_less(void **state)
     lab_free(lab);
 }
 
+/* Where the request leaves the law open, the loss is in the answer and nothing is told; what
+ * remains is the loss factor's own deviation. To first order of it a force like half a sine loses
+ * 0.77 of what half a cycle does, pi eta of the energy: the integral of omega |force|^2 over all
+ * frequencies at the same loss factor. */
+static void a_single_contact_loses_what_its_materials_do(void **state)
+{
+    (void)state;
+    struct body ball = make_sphere(ACRYLIC, 0.015);
+    for (double eta = 0.001; eta < 0.5; eta *= 3.0) {
+        law = PERCUSS_CONTACT_HERTZ;
+        double without = off_by(ball, rigid_wall(), 1e-4);
+        law = PERCUSS_CONTACT_AUTO;
+        double may = off_by(lossy(ball, eta), rigid_wall(), 1e-4);
+        double e = result.contacts[0].restitution, first = 0.77 * M_PI_2 * eta;
+        print_message("loss factor %.3f: e %.5f +- %.5f, half a cycle %.5f\n", eta, e, may,
+                      exp(-M_PI_2 * eta));
+        assert_int_equal(result.contact_model, PERCUSS_CONTACT_VISCOELASTIC);
+        assert_false(warns("loses of itself"));
+        /* 4 % is Hertz's force against half a sine; the rest of second order */
+        near(-log(e), first, (0.04 + eta) * first);
+        /* independent of the other deviations, which add at most */
+        double own = 0.3 * M_PI_2 * eta * e;
+        assert_true(may > own && may < without + own + 1e-6);
+        near(result.energy.damping / result.energy.available, 1.0 - e * e, 1e-4);
+        near(result.energy.closure / result.energy.available, 0.0, 1e-9);
+    }
+    /* no loss, no law of it: the same bits */
+    off_by(lossy(ball, 0.0), rigid_wall(), 1e-4);
+    assert_int_equal(result.contact_model, PERCUSS_CONTACT_HERTZ);
+    assert_true(result.contacts[0].restitution == 1.0);
+    law = PERCUSS_CONTACT_HERTZ;
+}
+
+/* What has no loss in it is refused by name if it is asked for, and told of if it is not. */
+static void other_contacts_have_none(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", lossy(make_sphere(ACRYLIC, 0.015), 0.05));
+    lab_add(lab, "wall", rigid_wall());
+    struct solve_request request = strike(sphere_spot("ball", 0.015), wall_spot("wall"), 1.0);
+    request.options.method = PERCUSS_METHOD_CVODE;
+    lab_solve(lab, &request, &result);
+    assert_true(warns("what ball loses of itself") && result.contacts[0].restitution > 0.999);
+    request.options.contact_model = PERCUSS_CONTACT_VISCOELASTIC;
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
+    assert_string_equal(result.fault.text,
+                        "options.contact_model: viscoelastic: options.method: must be modal");
+    request.options.method = PERCUSS_METHOD_MODAL;
+    lab->bodies[0].loss_factor = 0.0;
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
+    assert_string_equal(result.fault.text, "options.contact_model: viscoelastic: the material of a "
+                                           "body must state a loss_factor above 0");
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +248,8 @@ int main(void)
         cmocka_unit_test(stated_losses_are_told),
         cmocka_unit_test(unstated_losses_are_told_of_what_is_soft),
         cmocka_unit_test(a_rod_gives_back_less),
+        cmocka_unit_test(a_single_contact_loses_what_its_materials_do),
+        cmocka_unit_test(other_contacts_have_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

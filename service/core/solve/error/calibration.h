@@ -164,6 +164,12 @@ static const double THEORY_WITHOUT_SHEAR = 5.0;
  * depths and the same as blocks 103 were covered without this. */
 static const double NEAR_CLAMP = 0.16;
 
+/* ---- Contacts that lose what their materials do ---- */
+
+/* Of a stated loss factor, as a share: not measured, but taken as handbooks give it, with one
+ * digit, for a grade and a temperature that are not stated. */
+static const double LOSS_DEVIATION = 0.3;
+
 /* ---- Contact laws that yield: build/tests/plastic, physics/test_family ---- */
 
 /* Error of the family between its places, and once more where both bodies flow, as only one of them

@@ -418,11 +418,27 @@ static double lost_rebound(double rebound, double loss_factor)
     return loss_factor > 0.0 ? rebound * -expm1(-M_PI_2 * loss_factor) : 0.0;
 }
 
-/* The body's part of the contact's loss factor, 0 where none is stated. */
+/* Whether the contact's law has it. */
+static bool has_loss(const struct problem *problem, size_t contact)
+{
+    return problem->contact_model.laws[contact].operations->remembers;
+}
+
+double loss_deviation(const struct problem *problem, size_t contact, double rebound)
+{
+    if (!has_loss(problem, contact))
+        return 0.0;
+    double loss_factor = problem->contact_model.choices[contact].loss_factor;
+    return LOSS_DEVIATION * M_PI_2 * loss_factor * rebound;
+}
+
+/* The body's part of the contact's loss factor, 0 where none is stated, or is in the answer. */
 static double stated_loss(const struct problem *problem, size_t contact, int which)
 {
     double loss_factor = problem_body(problem, contact, which)->loss_factor;
-    return isnan(loss_factor) ? 0.0 : indentation_share(problem, contact, which) * loss_factor;
+    return isnan(loss_factor) || has_loss(problem, contact)
+               ? 0.0
+               : indentation_share(problem, contact, which) * loss_factor;
 }
 
 double loss_of_contact(const struct problem *problem, size_t contact, double rebound)

@@ -87,7 +87,11 @@ void unstated_explain(const struct problem *problem, const struct impact_outcome
 void unstated_find(const struct problem *problem, size_t contact,
                    const struct unstated_impact *impact, struct warnings *warnings);
 
-/* Loss of a contact's restitution by the stated loss_factor of its materials; `rebound` is the
+/* By how much the restitution may be wrong by the loss factor of a contact that has it. */
+double loss_deviation(const struct problem *problem, size_t contact, double rebound);
+
+/* Loss of a contact's restitution by the stated loss_factor of its materials, where its law does
+ * not have it; `rebound` is the
  * restitution that the motion after the largest indentations makes. */
 double loss_of_contact(const struct problem *problem, size_t contact, double rebound);
 

@@ -201,7 +201,9 @@ static double sensitivity(const struct model_margin *margin)
     bool hertz = !contact_model_used(margin->problem)->curve;
     if (hertz && isfinite(by_speed))
         return fabs(2.0 * by_speed);
-    double share = (energy->vibration + energy->damping) / energy->available;
+    /* what the contact itself loses hardly depends on its stiffness */
+    double relaxed = margin->solution->outcome.relaxed;
+    double share = (energy->vibration + energy->damping - relaxed) / energy->available;
     share = fmin(fmax(share, 0.0), 1.0); /* NAN: nothing was available */
     return LOST * share + SWUNG * sqrt(share);
 }
@@ -217,6 +219,12 @@ static double by_flow(const struct model_margin *margin, size_t c)
 {
     return margin->deviation[c].yield *
            outcome_rebound(margin->problem, &margin->solution->outcome, c);
+}
+
+static double by_loss(const struct model_margin *margin, size_t c)
+{
+    return loss_deviation(margin->problem, c,
+                          outcome_rebound(margin->problem, &margin->solution->outcome, c));
 }
 
 static double by_ringing(const struct model_margin *margin, size_t c)
@@ -252,6 +260,7 @@ static const struct part {
 } PARTS[] = {
     {"stiffness of the contact", by_stiffness, true},
     {"flow of the metal", by_flow, true},
+    {"loss of the materials", by_loss, true},
     {"ringing of bodies taken as rigid", by_ringing, true},
     {"bars hit askew", by_askew_bars, false},
     {"waves that no mode has", by_waves, false},

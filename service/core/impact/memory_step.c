@@ -1,0 +1,432 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/memory_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/extremes.h"
+#include "numeric/lagrange.h"
+#include "numeric/linear.h"
+
+/* As node_solver.c. */
+enum { MAX_ITERATIONS = 40 };
+static const double ROUNDING = 1e-15;
+
+bool memory_step_create(struct memory_step **step, const struct scene *scene, struct arena *arena)
+{
+    *step = NULL;
+    if (scene->contacts != 1 || scene->frictions || !scene->laws[0].operations->remembers)
+        return true;
+    *step = arena_take(arena, 1, sizeof **step);
+    if (!*step)
+        return false;
+    (*step)->compliance = scene->residual[0];
+    memory_step_begin(*step, &scene->laws[0]);
+    return true;
+}
+
+void memory_step_begin(struct memory_step *step, const struct contact_law *law)
+{
+    contact_memory_begin(&step->memory, law->table);
+    step->stiffness = law->parameters[0];
+    step->parted = false;
+    step->largest = 0.0;
+}
+
+/* ---- Tables of a level ---- */
+
+/* z int_0^x exp(-z (x - s)) s^m ds for m = 0 to 3: by parts, each from the one before it, or for
+ * short steps by its series z x^(m+1) m! sum (-z x)^n / (m + n + 1)!. */
+static void integrate(double z, double x, double integral[NODES])
+{
+    static const double SHORT = 1.0;
+    enum { TERMS = 20 };
+    double power = 1.0;
+    if (z * x > SHORT) {
+        integral[0] = -expm1(-z * x);
+        for (int m = 1; m < NODES; m++) {
+            power *= x;
+            integral[m] = power - m / z * integral[m - 1];
+        }
+        return;
+    }
+    for (int m = 0; m < NODES; m++) {
+        power *= x;
+        double term = power * z / (m + 1), sum = 0.0;
+        for (int n = 1; n <= TERMS; n++) {
+            sum += term;
+            term *= -z * x / (m + n + 1);
+        }
+        integral[m] = sum;
+    }
+}
+
+static void fill(struct memory_level *table, const struct relaxation *relaxation, double h)
+{
+    memset(table, 0, sizeof *table);
+    for (size_t k = 0; k < relaxation->count; k++)
+        for (int i = 0; i < STEP_POINTS; i++) {
+            double x = i < NODES ? collocation.node[i] : 1.0;
+            double integral[NODES];
+            integrate(h / relaxation->time[k], x, integral);
+            table->kept[k][i] = exp(-h / relaxation->time[k] * x);
+            for (int j = 0; j < NODES; j++) {
+                for (int m = 0; m < NODES; m++)
+                    table->by[k][i][j] += collocation.monomial[j][m] * integral[m];
+                table->all[i][j] += relaxation->share[k] * table->by[k][i][j];
+            }
+        }
+}
+
+bool memory_step_prepare(struct memory_step *step, int level, struct arena *arena)
+{
+    struct memory_level **table = &step->levels[level];
+    if (*table)
+        return true;
+    *table = arena_take(arena, 1, sizeof **table);
+    if (*table)
+        fill(*table, step->memory.relaxation, step_length(level));
+    return *table != NULL;
+}
+
+/* ---- Along a step ---- */
+
+/* Of the step, at a node or the end. */
+static double share_of(int point)
+{
+    return point < NODES ? collocation.node[point] : 1.0;
+}
+
+static double sum_of(const double by[NODES], const double values[NODES])
+{
+    return (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
+}
+
+/* Coefficients of the cubic through the nodes. */
+static void expand(const double values[NODES], double c[NODES])
+{
+    memset(c, 0, NODES * sizeof *c);
+    for (int j = 0; j < NODES; j++)
+        for (int m = 0; m < NODES; m++)
+            c[m] += values[j] * collocation.monomial[j][m];
+}
+
+/* Where the cubic turns from rising to falling; outside 0..1: nowhere on the step. */
+static double turn_of(const double values[NODES])
+{
+    double c[NODES];
+    expand(values, c);
+    double square = c[2] * c[2] - 3.0 * c[1] * c[3];
+    return square >= 0.0 && c[1] > 0.0 ? c[1] / (sqrt(square) - c[2]) : -1.0;
+}
+
+/* What the nodes' values are while the contact grows. */
+static void raise_all(const double nodes[NODES], double values[NODES])
+{
+    for (int i = 0; i < NODES; i++)
+        values[i] = nodes[i] > 0.0 ? nodes[i] * sqrt(nodes[i]) : 0.0;
+}
+
+/* Term k at a share x of the step. */
+static double memory_at(double z, double x, double start, const double values[NODES])
+{
+    double c[NODES], integral[NODES];
+    expand(values, c);
+    integrate(z, x, integral);
+    return exp(-z * x) * start + sum_of(c, integral);
+}
+
+/* What is remembered where the contact turns from growing to shrinking, by the indentations at the
+ * nodes. False: it does not turn on the step. */
+static bool find_turn(struct memory_step *step, int level, const double nodes[NODES])
+{
+    double values[NODES], x = turn_of(nodes);
+    step->turn = INFINITY;
+    if (step->memory.shrinks || !(x > 0.0 && x < 1.0 && collocation_value(nodes, x) > 0.0))
+        return false;
+    raise_all(nodes, values);
+    step->turned = step->memory;
+    for (size_t k = 0; k < step->memory.relaxation->count; k++) {
+        double z = step_length(level) / step->memory.relaxation->time[k];
+        step->turned.center[k] = memory_at(z, x, step->memory.center[k], nodes);
+        step->turned.total[k] = memory_at(z, x, step->memory.total[k], values);
+    }
+    contact_memory_shrink(&step->turned, collocation_value(nodes, x));
+    step->turn = x;
+    return true;
+}
+
+/* ---- Forces ---- */
+
+/* A point of the step without what the nodes add. */
+struct recollection {
+    double remembered; /* sum of share times the kept part of total or center */
+    double slope, bend;
+};
+
+/* Of a point before the turn. */
+static struct recollection recall(const struct memory_step *step, const struct memory_level *table,
+                                  int point)
+{
+    const struct contact_memory *memory = &step->memory;
+    struct recollection sum = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < memory->relaxation->count; k++) {
+        double share = memory->relaxation->share[k], kept = table->kept[k][point];
+        const double *from = memory->shrinks ? memory->center : memory->total;
+        sum.remembered += share * kept * from[k];
+        sum.slope += share * (kept * memory->slope[k] - (1.0 - kept));
+        sum.bend += share * kept * memory->bend[k];
+    }
+    return sum;
+}
+
+/* Of a point behind it: its parabolas fade from there on. */
+static struct recollection recall_turned(const struct memory_step *step,
+                                         const struct memory_level *table, int point)
+{
+    const struct contact_memory *memory = &step->memory, *turned = &step->turned;
+    struct recollection sum = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < memory->relaxation->count; k++) {
+        double share = memory->relaxation->share[k];
+        double z = step->length / memory->relaxation->time[k];
+        double kept = exp(-z * (share_of(point) - step->turn));
+        sum.remembered += share * table->kept[k][point] * memory->center[k];
+        sum.slope += share * (kept * turned->slope[k] - (1.0 - kept));
+        sum.bend += share * kept * turned->bend[k];
+    }
+    return sum;
+}
+
+/* d^(3/2), which the memory of a contact that grows follows, and its slope. */
+static double raised(double d, double *slope)
+{
+    double root = d > 0.0 ? sqrt(d) : 0.0;
+    *slope = 1.5 * root;
+    return root * d;
+}
+
+/* The values that the memory at a point follows: those of all nodes, and their slopes. */
+static bool follows_depths(const struct memory_step *step, int point)
+{
+    return step->memory.shrinks || share_of(point) > step->turn;
+}
+
+/* Force at a point for an indentation d there and those of all nodes. `slopes`: by these and, at
+ * last, by d. */
+static double force_at(const struct memory_step *step, const struct memory_level *table, int point,
+                       double d, const double nodes[NODES], double slopes[STEP_POINTS])
+{
+    bool depths = follows_depths(step, point);
+    const struct contact_memory *memory = step->memory.shrinks ? &step->memory : &step->turned;
+    struct recollection sum = depths && !step->memory.shrinks ? recall_turned(step, table, point)
+                                                              : recall(step, table, point);
+    double values[NODES], rise[NODES], own = 1.0, slope, force;
+    for (int j = 0; j < NODES; j++) {
+        values[j] = nodes[j];
+        rise[j] = 1.0;
+        if (!depths)
+            values[j] = raised(nodes[j], &rise[j]);
+    }
+    double remembered = sum.remembered + sum_of(table->all[point], values);
+    if (depths) {
+        const double pressed[3] = {d - remembered, -1.0 - sum.slope, -sum.bend};
+        force = contact_memory_shrinking(step->stiffness, d, pressed, memory->width, &slope);
+    } else {
+        force = contact_memory_growing(step->stiffness, d, remembered, &slope);
+        raised(d, &own);
+    }
+    for (int j = 0; j < NODES; j++)
+        slopes[j] = -slope * table->all[point][j] * rise[j];
+    slopes[NODES] = slope * own;
+    return force;
+}
+
+/* Forces at the nodes and their slopes. */
+static void find_forces(struct memory_step *step, const struct memory_level *table,
+                        const double d[NODES], double force[NODES])
+{
+    for (int i = 0; i < NODES; i++) {
+        double slopes[STEP_POINTS];
+        force[i] = force_at(step, table, i, d[i], d, slopes);
+        memcpy(step->slope[i], slopes, sizeof step->slope[i]);
+        step->slope[i][i] += slopes[NODES];
+    }
+}
+
+static double largest_of(const double values[NODES])
+{
+    double largest = 0.0;
+    for (int i = 0; i < NODES; i++)
+        largest = larger(largest, fabs(values[i]));
+    return largest;
+}
+
+/* Newton's method with the turn where it is. */
+static bool solve(struct memory_step *step, const struct memory_level *table,
+                  const double (*coupling)[NODES], const double target[NODES], double last,
+                  double d[NODES], double force[NODES], unsigned long *iterations)
+{
+    double rounding = ROUNDING * largest_of(target);
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        double matrix[NODES * NODES] = {0.0}, change[NODES];
+        find_forces(step, table, d, force);
+        for (int i = 0; i < NODES; i++) {
+            change[i] = d[i] - target[i] + sum_of(coupling[i], force);
+            for (int j = 0; j < NODES; j++) {
+                for (int l = 0; l < NODES; l++)
+                    matrix[i * NODES + j] += coupling[i][l] * step->slope[l][j];
+                matrix[i * NODES + j] += i == j;
+            }
+        }
+        ++*iterations;
+        if (!linear_solve(NODES, matrix, change) || !isfinite(largest_of(change)))
+            return false;
+        for (int i = 0; i < NODES; i++)
+            d[i] -= change[i];
+        if (largest_of(change) > last * largest_of(d) && largest_of(change) > rounding)
+            continue;
+        for (int i = 0; i < NODES; i++)
+            force[i] = larger(force[i] - sum_of(step->slope[i], change), 0.0);
+        return true;
+    }
+    return false;
+}
+
+/* The force behind the turn differs little from that of a contact that grows: each round shifts the
+ * turn by far less than the one before. */
+enum { TURN_ROUNDS = 3 };
+
+bool memory_step_solve(struct memory_step *step, int level, const double (*coupling)[NODES],
+                       const double target[NODES], double last, double d[NODES],
+                       double force[NODES], unsigned long *iterations)
+{
+    const struct memory_level *table = step->levels[level];
+    step->length = step_length(level);
+    step->turn = INFINITY;
+    if (!solve(step, table, coupling, target, last, d, force, iterations))
+        return false;
+    for (int round = 0; round < TURN_ROUNDS && find_turn(step, level, d); round++)
+        if (!solve(step, table, coupling, target, last, d, force, iterations))
+            return false;
+    return true;
+}
+
+bool memory_step_end(const struct memory_step *step, int level, const double nodes[NODES],
+                     double approach, double last, double *indentation, double *force)
+{
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        double slopes[STEP_POINTS], d = *indentation;
+        *force = force_at(step, step->levels[level], NODES, d, nodes, slopes);
+        double slope = slopes[NODES];
+        double change =
+            (d + step->compliance * *force - approach) / (1.0 + step->compliance * slope);
+        *indentation = d - change;
+        if (fabs(change) > last * fabs(*indentation) && fabs(change) > ROUNDING * fabs(approach))
+            continue;
+        *force = larger(*force - slope * change, 0.0);
+        return true;
+    }
+    return false;
+}
+
+/* ---- Accepted steps ---- */
+
+enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
+
+/* Slopes at the nodes of the polynomial through all points: under a cubic force a body moves along
+ * one of the fifth degree. */
+static void find_rates(const struct memory_taken *taken, double rate[NODES])
+{
+    double place[POINTS] = {0.0}, value[POINTS] = {taken->start};
+    place[POINTS - 1] = 1.0;
+    value[POINTS - 1] = taken->end;
+    for (int j = 0; j < NODES; j++) {
+        place[j + 1] = collocation.node[j];
+        value[j + 1] = taken->nodes[j];
+    }
+    for (int i = 0; i < NODES; i++) {
+        double slope[POINTS];
+        lagrange_slopes(place, POINTS, collocation.node[i], slope);
+        rate[i] = 0.0;
+        for (int j = 0; j < POINTS; j++)
+            rate[i] += slope[j] * value[j];
+    }
+}
+
+/* The work on the local indentation. */
+static double work_of(const struct memory_taken *taken)
+{
+    double rate[NODES], sum = 0.0;
+    find_rates(taken, rate);
+    for (int i = 0; i < NODES; i++)
+        sum += collocation.weight[i] * taken->forces[i] * rate[i];
+    return sum;
+}
+
+/* The largest value of the cubic on the step. */
+static double peak_of(const double values[NODES])
+{
+    double peak = larger(collocation_value(values, 0.0), collocation_last(values));
+    double turn = turn_of(values);
+    return turn > 0.0 && turn < 1.0 ? larger(peak, collocation_value(values, turn)) : peak;
+}
+
+/* The share of the step after which no point bears a force: the line through the last two nodes
+ * that do, up to the next point. */
+static double parting(const double forces[NODES])
+{
+    int last = NODES - 1;
+    while (last >= 0 && !(forces[last] > 0.0))
+        last--;
+    if (last < 0)
+        return 0.0;
+    double from = collocation.node[last];
+    double until = last + 1 < NODES ? collocation.node[last + 1] : 1.0;
+    if (last == 0 || !(forces[last - 1] > forces[last]))
+        return from;
+    double falls = (forces[last - 1] - forces[last]) / (from - collocation.node[last - 1]);
+    return smaller(from + forces[last] / falls, until);
+}
+
+static void note_force(struct memory_step *step, const struct memory_taken *taken)
+{
+    bool bears = taken->end_force > 0.0 || largest_of(taken->forces) > 0.0;
+    step->work += work_of(taken);
+    step->force = taken->end_force;
+    if (bears)
+        step->largest = larger(step->largest, peak_of(taken->forces));
+    if (!(taken->end_force > 0.0) && (bears || !step->parted))
+        step->parted_at = taken->time + step_length(taken->level) * parting(taken->forces);
+    step->parted = !(taken->end_force > 0.0);
+}
+
+void memory_step_take(struct memory_step *step, const struct memory_taken *taken)
+{
+    struct contact_memory *memory = &step->memory;
+    const struct memory_level *table = step->levels[taken->level];
+    bool turns = step->turn < 1.0;
+    double values[NODES];
+    note_force(step, taken);
+    raise_all(taken->nodes, values);
+    for (size_t k = 0; k < memory->relaxation->count; k++) {
+        double kept = table->kept[k][NODES];
+        memory->center[k] = kept * memory->center[k] + sum_of(table->by[k][NODES], taken->nodes);
+        memory->total[k] = kept * memory->total[k] + sum_of(table->by[k][NODES], values);
+        if (turns)
+            kept =
+                exp(-step_length(taken->level) / memory->relaxation->time[k] * (1.0 - step->turn));
+        const struct contact_memory *from = turns ? &step->turned : memory;
+        memory->slope[k] = kept * from->slope[k] - (1.0 - kept);
+        memory->bend[k] = kept * from->bend[k];
+    }
+    if (turns) {
+        memory->shrinks = true;
+        memory->width = step->turned.width;
+    }
+    if (memory->shrinks && taken->end > memory->width)
+        contact_memory_grow(memory);
+    else if (!memory->shrinks && taken->end_rate < 0.0 && taken->end > 0.0)
+        contact_memory_shrink(memory, taken->end);
+}

@@ -1,0 +1,40 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Moduli of linear viscoelastic materials as sums of exponentials (Prony's series): after a sudden
+ * strain the modulus falls from its instantaneous value E_0 to E_0 g(t),
+ *
+ *   g(t) = 1 - sum_i share_i (1 - exp(-t/time_i))
+ *
+ * Poisson's ratio is constant. */
+#ifndef PERCUSS_MODEL_RELAXATION_H
+#define PERCUSS_MODEL_RELAXATION_H
+
+#include <stddef.h>
+
+/* Terms of a material, and of two in series. */
+enum { RELAXATION_TERMS = 8, RELAXATION_MOST = 2 * RELAXATION_TERMS };
+
+struct relaxation {
+    size_t count;                  /* 0: elastic */
+    double share[RELAXATION_MOST]; /* of the instantaneous modulus, > 0; their sum < 1 */
+    double time[RELAXATION_MOST];  /* s, ascending */
+};
+
+/* Storage modulus over the instantaneous one, and loss factor tan delta, of steady vibration at an
+ * angular frequency (rad/s). */
+double relaxation_storage(const struct relaxation *relaxation, double omega);
+double relaxation_loss_factor(const struct relaxation *relaxation, double omega);
+
+/* A material with this loss factor (0 < eta < 2) at `omega`, and nearly the same around it (up to
+ * 0.3: to 10 % from omega/20 to 6 omega): its modulus grows there like omega^a, a = 2/pi atan eta
+ * (J. D. Ferry, Viscoelastic Properties of Polymers, 1980, chapter 3: modulus, loss and spectrum of
+ * a power of time). */
+struct relaxation relaxation_constant(double loss_factor, double omega);
+
+/* Two bodies in series, the first with `part` (0 to 1) of the instantaneous compliance: their creep
+ * adds. Each has up to RELAXATION_TERMS terms. */
+struct relaxation relaxation_in_series(const struct relaxation *first, double part,
+                                       const struct relaxation *second);
+
+#endif

@@ -1,0 +1,174 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/core/impact/memory_step.c and contact/memory.c: viscoelastic contacts against
+ * Prony's series where the indentation is held, against the circles of the contact integrated one
+ * by one (Ting's rule without its parabola), and their energy. */
+#include "impact/contact_step.h"
+#include "unit/impact/toy_scene.h"
+
+/* A sudden indentation that is held: k d^(3/2) g(t), to rounding. */
+static void a_held_contact_relaxes(void **state)
+{
+    (void)state;
+    static const struct relaxation of = {2, {0.3, 0.4}, {0.2, 3.0}};
+    const double held[NODES] = {1.7, 1.7, 1.7, 1.7};
+    struct toy toy;
+    struct memory_step *step;
+    toy_init(&toy, 1);
+    toy.laws[0] = contact_law_viscoelastic(2.0, &of);
+    assert_true(memory_step_create(&step, &toy.scene, &toy.arena));
+    double time = 0.0;
+    for (int level = 6; level >= -0; level--) {
+        double force[NODES], none[NODES][NODES] = {{0}}, d[NODES], end = 1.7, end_force;
+        unsigned long iterations = 0;
+        memcpy(d, held, sizeof d);
+        assert_true(memory_step_prepare(step, level, &toy.arena));
+        assert_true(memory_step_solve(step, level, none, held, 1e-9, d, force, &iterations));
+        assert_true(memory_step_end(step, level, d, 1.7, 1e-9, &end, &end_force));
+        for (int i = 0; i <= NODES; i++) {
+            double t = time + step_length(level) * (i < NODES ? collocation.node[i] : 1.0);
+            double g = 1.0 - 0.3 * -expm1(-t / 0.2) - 0.4 * -expm1(-t / 3.0);
+            measured("force", i < NODES ? force[i] : end_force, 2.0 * pow(1.7, 1.5) * g, 1e-14);
+        }
+        memory_step_take(step,
+                         &(struct memory_taken){time, level, d, force, end, end, 0.0, end_force});
+        time += step_length(level);
+    }
+    toy_free(&toy);
+}
+
+/* A unit mass at unit speed on k = 1, with circles of equal depths: their displacements u and arms
+ * m, time m' = u - m, exactly for displacements linear in a step. One that is free has u - sum
+ * share m = 0. Returns the restitution. */
+enum { CIRCLES = 900 };
+
+static double with_circles(const struct relaxation *of)
+{
+    static double arm[RELAXATION_MOST][CIRCLES], displaced[CIRCLES];
+    const double h = 4e-4, widest = 1.5;
+    double kept[RELAXATION_MOST], half[RELAXATION_MOST];
+    double d = 0.0, v = 1.0, force = 0.0;
+    memset(arm, 0, sizeof arm);
+    memset(displaced, 0, sizeof displaced);
+    for (size_t k = 0; k < of->count; k++) {
+        double z = h / of->time[k];
+        kept[k] = exp(-z);
+        half[k] = 1.0 + expm1(-z) / z; /* of the change of u within the step */
+    }
+    for (double t = 0.0;; t += h) {
+        bool any = false;
+        v -= 0.5 * h * force;
+        d += h * v;
+        force = 0.0;
+        for (int c = 0; c < CIRCLES; c++) {
+            double y = widest * ((c + 0.5) * (c + 0.5)) / (CIRCLES * (double)CIRCLES);
+            double past = 0.0, now = 1.0;
+            if (d < y && displaced[c] == 0.0)
+                break; /* nothing has touched yet */
+            for (size_t k = 0; k < of->count; k++) {
+                past +=
+                    of->share[k] * (kept[k] * arm[k][c] + (1.0 - kept[k] - half[k]) * displaced[c]);
+                now -= of->share[k] * half[k];
+            }
+            double u = d - y, f = u * now - past;
+            if (f > 0.0) {
+                any = true;
+                /* dx = sqrt(widest) / CIRCLES, and F = 3/2 int f dx */
+                force += 1.5 * sqrt(widest) / CIRCLES * f;
+            } else {
+                u = past / now;
+            }
+            for (size_t k = 0; k < of->count; k++)
+                arm[k][c] =
+                    kept[k] * arm[k][c] + half[k] * u + (1.0 - kept[k] - half[k]) * displaced[c];
+            displaced[c] = u;
+        }
+        v -= 0.5 * h * force;
+        if (!any && t > 0.1)
+            return -v;
+    }
+}
+
+static struct impact_outcome run(struct toy *toy, double accuracy)
+{
+    struct impact_outcome outcome;
+    struct impact_settings settings = {.accuracy = accuracy, .horizon = 1e3, .max_work = 1e9};
+    assert_true(impact_create(&outcome, &toy->scene, &toy->arena));
+    assert_int_equal(impact_modal(&toy->scene, &settings, &toy->arena, &outcome), PERCUSS_OK);
+    return outcome;
+}
+
+/* The energy of each step is exact; the restitution converges with the steps to that of Ting's rule
+ * but for the parabola, which the circles have not (largest difference 0.0011; the circles' own
+ * error is 1e-4). */
+static void balls_rebound_by_tings_rule(void **state)
+{
+    (void)state;
+    static const struct relaxation cases[] = {{1, {0.1}, {1.0}},
+                                              {1, {0.3}, {0.5}},
+                                              {1, {0.5}, {0.1}},
+                                              {1, {0.5}, {3.0}},
+                                              {1, {0.9}, {1.0}},
+                                              {1, {0.98}, {0.5}},
+                                              {3, {0.2, 0.3, 0.3}, {0.1, 1.0, 8.0}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct toy toy;
+        toy_init(&toy, 1);
+        toy.laws[0] = contact_law_viscoelastic(1.0, &cases[i]);
+        toy.gap_rate[0] = -1.0;
+        assert_false(impact_is_rigid_pair(&toy.scene));
+        struct impact_outcome fine = run(&toy, 1e-9), rough = run(&toy, 1e-3);
+        const struct sub_impact *blow = &fine.tracks[0].list[0];
+        double e = fine.motion.gap_rate[0], exact = with_circles(&cases[i]);
+        print_message("share %.2f time %.1f: e %.6f, circles %.6f\n", cases[i].share[0],
+                      cases[i].time[0], e, exact);
+        assert_int_equal(fine.tracks[0].count, 1);
+        measured("restitution", e, exact, 0.0013);
+        measured("with rough steps", rough.motion.gap_rate[0], e, 1e-4);
+        measured("closure", fine.energy.closure, 0.0, 1e-12);
+        measured("lost", fine.energy.damping, 0.5 * (1.0 - e * e), 1e-12);
+        measured("impulse", blow->impulse, 1.0 + e, 1e-12);
+        /* the ball parts while the surface is still indented, at the end of its force */
+        assert_true(blow->end > blow->compression_end && blow->end < fine.window);
+        measured("parts", rough.tracks[0].list[0].end, blow->end, 0.02);
+        toy_free(&toy);
+    }
+}
+
+/* Modes, a compliance in series and a load that presses, and the end of the window within the
+ * contact: the energy closes. */
+static void the_energy_closes_beside_modes(void **state)
+{
+    (void)state;
+    static const struct relaxation of = {2, {0.2, 0.4}, {0.3, 2.0}};
+    static const double omega[] = {1.3, 4.0, 9.0}, phi[] = {0.7, -0.5, 0.4};
+    for (int held = 0; held < 2; held++) {
+        struct toy toy;
+        toy_init(&toy, 1);
+        toy_add(&toy, 0, 3, omega, 0.02, phi);
+        toy.laws[0] = contact_law_viscoelastic(1.0, &of);
+        toy.residual[0] = 0.05;
+        toy.gap_rate[0] = -1.0;
+        toy.gap_acceleration[0] = held ? -0.2 : 0.0;
+        struct impact_settings settings = {
+            .accuracy = 1e-8, .horizon = held ? 2.0 : 1e3, .max_work = 1e9};
+        struct impact_outcome outcome;
+        assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+        assert_int_equal(impact_modal(&toy.scene, &settings, &toy.arena, &outcome), PERCUSS_OK);
+        assert_int_equal(outcome.end_reason == PERCUSS_END_IN_CONTACT, held);
+        assert_true(outcome.relaxed > 0.0);
+        measured("closure", outcome.energy.closure / outcome.energy.available, 0.0, 1e-7);
+        toy_free(&toy);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_held_contact_relaxes),
+        cmocka_unit_test(balls_rebound_by_tings_rule),
+        cmocka_unit_test(the_energy_closes_beside_modes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
