@@ -222,6 +222,9 @@ static enum percuss_status find_lossy(struct problem *problem, struct fault *fau
     double omega = why ? NAN : frequency_of(problem, 0);
     if (!(omega > 0.0) || !(asked || asked_of(problem)->yields_if_needed))
         return PERCUSS_OK;
+    struct contact_loss *loss = choice->loss = arena_take(problem->arena, 1, sizeof *loss);
+    if (!loss)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     double compliance[2], before = 0.0;
     struct relaxation own[2];
     for (int which = 0; which < 2; which++) {
@@ -232,10 +235,10 @@ static enum percuss_status find_lossy(struct problem *problem, struct fault *fau
         before += at;
     }
     double sudden = compliance[0] + compliance[1];
-    choice->relaxation = relaxation_in_series(&own[0], compliance[0] / sudden, &own[1]);
-    choice->loss_factor = relaxation_loss_factor(&choice->relaxation, omega);
-    choice->lossy = contact_law_viscoelastic(problem->hertz[0].stiffness * before / sudden,
-                                             &choice->relaxation);
+    loss->relaxation = relaxation_in_series(&own[0], compliance[0] / sudden, &own[1]);
+    loss->loss_factor = relaxation_loss_factor(&loss->relaxation, omega);
+    loss->law =
+        contact_law_viscoelastic(problem->hertz[0].stiffness * before / sudden, &loss->relaxation);
     return PERCUSS_OK;
 }
 
@@ -248,8 +251,8 @@ static void use_laws(struct problem *problem, bool yielding)
     bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
     for (size_t c = 0; c < problem->contact_count; c++) {
         const struct contact_choice *choice = &model->choices[c];
-        if (choice->lossy.operations && (asked || !yielding))
-            model->laws[c] = choice->lossy;
+        if (choice->loss && (asked || !yielding))
+            model->laws[c] = choice->loss->law;
         else
             model->laws[c] =
                 yielding ? choice->plastic : contact_law_hertz(problem->hertz[c].stiffness);

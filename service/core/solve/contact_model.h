@@ -13,6 +13,13 @@
 #include "model/relaxation.h"
 #include "solve/problem.h"
 
+/* The law of a contact with what its materials lose. */
+struct contact_loss {
+    struct contact_law law;       /* in place of Hertz's */
+    struct relaxation relaxation; /* of both bodies */
+    double loss_factor;           /* of both, at the contact's frequency */
+};
+
 /* One contact. */
 struct contact_choice {
     struct contact_law plastic; /* the law that yields; Hertz where neither body can */
@@ -20,15 +27,13 @@ struct contact_choice {
     int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
     size_t dent;                /* index in that body's state of the dent that the law remembers */
     bool dented, tabulated;
-    bool family;                  /* the table is one of the family's */
-    bool both;                    /* ... where both bodies flow */
-    double outside;               /* ... and this far outside its axes */
-    struct contact_law lossy;     /* with what the materials lose, in place of Hertz's; or without
-                                     operations: nothing is stated, or it cannot be */
-    struct relaxation relaxation; /* of that: both bodies' */
-    double loss_factor;           /* of both, at the contact's frequency */
-    struct contact_law compared;  /* the family's law, where the closed form is used; or without
-                                     operations: there is none */
+    bool family;               /* the table is one of the family's */
+    bool both;                 /* ... where both bodies flow */
+    double outside;            /* ... and this far outside its axes */
+    struct contact_loss *loss; /* what the materials lose; NULL: nothing is stated, or it cannot be
+                                  in the law */
+    struct contact_law compared; /* the family's law, where the closed form is used; or without
+                                    operations: there is none */
 };
 
 /* Finds the laws that the request asks for, the likely ones where it leaves the choice, and makes

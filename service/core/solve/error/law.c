@@ -428,7 +428,7 @@ double loss_deviation(const struct problem *problem, size_t contact, double rebo
 {
     if (!has_loss(problem, contact))
         return 0.0;
-    double loss_factor = problem->contact_model.choices[contact].loss_factor;
+    double loss_factor = problem->contact_model.choices[contact].loss->loss_factor;
     return LOSS_DEVIATION * M_PI_2 * loss_factor * rebound;
 }
 
