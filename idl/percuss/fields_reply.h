@@ -65,7 +65,7 @@
     F(VALUE, available, "J")                                                                       \
     F(VALUE, rigid_after, "J")                                                                     \
     L(LIST, vibration, vibration_count, body_energy, "of each body")                               \
-    F(VALUE, damping, "J; with the waves that leave through half-spaces")                          \
+    F(VALUE, damping, "J; with what leaves in waves and what materials lose")                      \
     F(VALUE, plastic, "J")                                                                         \
     F(VALUE, friction, "J; lost by sliding in the contacts")                                       \
     F(VALUE, stored, "J")                                                                          \

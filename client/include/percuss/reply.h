@@ -67,7 +67,8 @@ struct percuss_energy { /* J */
     double available, rigid_after;
     size_t vibration_count;
     struct percuss_body_energy *vibration;
-    double damping, plastic, stored; /* damping: with the waves that leave through half-spaces */
+    double damping, plastic, stored; /* damping: with the waves that leave through
+                                        half-spaces and what materials lose in a contact */
     double closure;                  /* available less all the others: a check of the solution */
     double friction;                 /* lost by sliding in the contacts */
 };

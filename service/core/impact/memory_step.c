@@ -331,6 +331,13 @@ bool memory_step_end(const struct memory_step *step, int level, const double nod
     return false;
 }
 
+bool memory_step_regrows(const struct memory_step *step, double end)
+{
+    if (step->memory.shrinks)
+        return end > step->memory.width;
+    return step->turn < 1.0 && end > step->turned.width;
+}
+
 /* ---- Accepted steps ---- */
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */

@@ -55,6 +55,10 @@ bool memory_step_solve(struct memory_step *step, int level, const double (*coupl
 bool memory_step_end(const struct memory_step *step, int level, const double nodes[NODES],
                      double approach, double last, double *indentation, double *force);
 
+/* Whether the step just solved, which ends with that indentation, shrinks the contact and grows it
+ * beyond where it began to shrink: circles touch within the step that no memory has. */
+bool memory_step_regrows(const struct memory_step *step, double end);
+
 /* One step that is accepted, which began at `time`: indentations at its start and end, there with
  * the rate and the force. */
 struct memory_taken {

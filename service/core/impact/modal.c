@@ -586,11 +586,14 @@ static double step_roughness(const struct modal_run *run)
     return worst;
 }
 
-/* Whether a contact that remembers bears no force any more from within the step on, and did. */
+/* Whether a contact that remembers bears no force any more from within the step on, and did; or
+ * shrinks and then grows beyond the width from which it shrank. */
 static bool parts(const struct modal_run *run)
 {
     const struct memory_step *memory = run->step.memory;
-    return !memory->parted && !(run->step.end_force[0] > 0.0);
+    if (!memory->parted && !(run->step.end_force[0] > 0.0))
+        return true;
+    return memory_step_regrows(memory, run->step.end_indentation[0]);
 }
 
 /* The only closed contact ends inside the step: the step is cut there, as its force has no

@@ -70,20 +70,20 @@ static bool is_pressed(const struct scene *scene)
     return !(2.0 * acceleration * scale.indentation <= PRESSED * speed * speed);
 }
 
-static bool yields(const struct scene *scene)
+static bool has_history(const struct scene *scene)
 {
     for (size_t c = 0; c < scene->contacts; c++)
-        if (scene->laws[c].operations->curve)
+        if (scene->laws[c].operations->curve || scene->laws[c].operations->remembers)
             return true;
     return false;
 }
 
-/* Longer steps than a sequence's are for laws that do not yield, as e depends on the largest force
- * else, which they miss; and a single impact's where it can be one. */
+/* Longer steps than a sequence's are for laws that neither yield nor remember, as e depends on the
+ * largest force else, which they miss; and a single impact's where it can be one. */
 static void choose_profile(struct attempt *attempt, const struct scene *scene)
 {
     bool single = attempt->profile == STEP_PROFILE_SINGLE;
-    if (yields(scene) || (single && (scene->contacts > 1 || is_pressed(scene))))
+    if (has_history(scene) || (single && (scene->contacts > 1 || is_pressed(scene))))
         attempt->profile = STEP_PROFILE_SEQUENCE;
 }
 
