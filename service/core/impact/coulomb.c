@@ -181,16 +181,18 @@ static void write_point(struct slide *slide, int i, double (*matrix)[UNKNOWNS], 
     }
 }
 
-/* A change below this share of the limits leaves its square. */
-static const double LAST_CHANGE = 1e-8;
+/* What the forces miss of the law, over the limits: some roundings of a sum of eight. Or over the
+ * rates' own rounding. */
+static const double LAST_EXCESS = 1e-13;
 enum { MOST_ROUNDS = 12 };
 
-/* Newton's method, which may go in a circle from a bad start. */
+/* Newton's method, which may go in a circle from a bad start. Where all points stick or slide along
+ * a line the equations are linear: one round; none from forces that fulfil them already. */
 static bool find_forces(struct slide *slide)
 {
-    double scale = 0.0;
+    double last = slide->rounding;
     for (int i = 0; i < NODES; i++)
-        scale = larger(scale, slide->limit[i]);
+        last = larger(last, LAST_EXCESS * slide->limit[i]);
     for (int round = 0; round < MOST_ROUNDS; round++) {
         double matrix[UNKNOWNS][UNKNOWNS], change[UNKNOWNS], largest = 0.0;
         for (int i = 0; i < NODES; i++)
@@ -199,14 +201,14 @@ static bool find_forces(struct slide *slide)
         for (int i = 0; i < NODES; i++)
             if (slide->like[i] != i)
                 write_beside(slide, i, matrix, change);
+        for (int k = 0; k < UNKNOWNS; k++)
+            largest = larger(largest, fabs(change[k]));
+        if (largest <= last)
+            return true;
         if (!linear_solve(UNKNOWNS, matrix[0], change))
             return false;
-        for (int k = 0; k < UNKNOWNS; k++) {
+        for (int k = 0; k < UNKNOWNS; k++)
             slide->force[k % 2][k / 2] -= change[k];
-            largest = larger(largest, fabs(change[k]));
-        }
-        if (round > 0 && largest <= LAST_CHANGE * scale)
-            return true;
     }
     return false;
 }
