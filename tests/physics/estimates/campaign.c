@@ -123,7 +123,7 @@ static bool covers_tangential(const struct truth *truth, const struct solve_resu
         const struct solve_contact_result *contact = &result->contacts[c];
         const double *t = contact->impulse_tangential, *right = truth->tangential[c];
         double given = contact->impulse_tangential_error - contact->impulse_tangential_error_model +
-                       truth->impulse_spread;
+                       truth->impulse_spread + truth->tangential_spread;
         if (!(hypot(t[0] - right[0], t[1] - right[1]) <= given))
             return false;
     }
@@ -246,12 +246,15 @@ static bool has_waves(const struct body_set *set)
 }
 
 /* CVODE judges alone where two of its solutions agree within the effort, and our own reference is
- * compared with it; elsewhere that one judges. */
+ * compared with it; elsewhere that one judges. CVODE has no plain friction: there solutions below
+ * solve() judge, none of whose choices is an answer's. */
 static bool find_oblique(struct campaign *campaign, const struct scene_drawn *scene,
                          uint64_t number, const struct truth_settings *wanted, struct truth *truth)
 {
     struct truth cvode;
     const double settled = TALLY_SETTLED * campaign_tolerances[CAMPAIGN_TOLERANCES - 1];
+    if (campaign->settings.plain)
+        return truth_find(campaign->room, &campaign->lab->set, &scene->plain, wanted, truth);
     bool found = find_by_answer(campaign, scene, truth);
     bool by_cvode = wanted->modes <= CVODE_MODES && !has_waves(&campaign->lab->set) &&
                     truth_find(campaign->room, &campaign->lab->set, &scene->plain, wanted, &cvode);
@@ -273,7 +276,7 @@ static void judge_all(struct campaign *campaign, struct scene_drawn *scene, uint
     const bool oblique = settings->class == CLASS_OBLIQUE;
     const struct truth_settings wanted = {.goal = 0.2 * TALLY_SETTLED * tightest,
                                           .effort = settings->effort,
-                                          .cvode = oblique,
+                                          .cvode = oblique && !settings->plain,
                                           .modes = answers->modes + 8,
                                           .earlier = scene->earlier,
                                           .earlier_count = scene->earlier_count,
@@ -304,6 +307,8 @@ static void run_scene(struct campaign *campaign, uint64_t number)
     static struct scene_drawn scene;
     static struct answers answers;
     bool drawn = scene_draw(campaign->lab, campaign->settings.class, number, &scene);
+    if (campaign->settings.plain)
+        scene.plain.options.friction = scene.request.options.friction = PERCUSS_FRICTION_PLAIN;
     if (campaign->settings.chatty)
         printf("%s %llu: %s\n", scene_class_word(campaign->settings.class),
                (unsigned long long)number, scene.text);

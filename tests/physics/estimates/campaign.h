@@ -18,6 +18,7 @@ struct campaign_settings {
     uint64_t first, count;
     double effort;  /* of a scene's reference, see truth.h */
     uint64_t cvode; /* every so many scenes the reference is compared with CVODE's; 0: never */
+    bool plain;     /* plain friction in place of micro-slip */
     bool csv;       /* tables as CSV */
     bool list;      /* each answer as a line of CSV */
     bool chatty;    /* each scene with everything */

@@ -174,8 +174,13 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
     truth->spread = first ? INFINITY : truth_distance(truth, impulse);
     truth->impulse_spread = first ? INFINITY : truth_impulse_distance(truth, impulse);
     memcpy(truth->impulse, impulse, sizeof impulse);
-    for (size_t c = 0; c < truth->contacts; c++)
-        memcpy(truth->tangential[c], outcome.tracks[c].tangential, sizeof truth->tangential[c]);
+    truth->tangential_spread = first ? INFINITY : 0.0;
+    for (size_t c = 0; c < truth->contacts; c++) {
+        const double *t = outcome.tracks[c].tangential, *before = truth->tangential[c];
+        double moved = hypot(t[0] - before[0], t[1] - before[1]);
+        truth->tangential_spread = fmax(truth->tangential_spread, moved);
+        memcpy(truth->tangential[c], t, sizeof truth->tangential[c]);
+    }
     find_effects(problem, truth);
     truth->modes = level->modes;
     truth->levels++;

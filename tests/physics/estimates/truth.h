@@ -32,9 +32,10 @@ struct truth {
     double tangential[PERCUSS_MAX_CONTACTS][2];
     double compression[PERCUSS_MAX_CONTACTS]; /* impulses, Eq. (4) */
     struct truth_effect effect[PERCUSS_MAX_CONTACTS][2];
-    double spread;         /* between the last two solutions, in restitution; INFINITY: no two */
-    double impulse_spread; /* in impulse, N s */
-    size_t modes;          /* of a family, in the last one */
+    double spread;            /* between the last two solutions, in restitution; INFINITY: no two */
+    double impulse_spread;    /* in impulse, N s */
+    double tangential_spread; /* in tangential impulse, N s; 0 of an answer */
+    size_t modes;             /* of a family, in the last one */
     size_t levels;
     double work;
     enum percuss_end_reason end_reason;
