@@ -48,11 +48,16 @@ static void print_answer(const struct solve_result *result, const struct verdict
            result->restitution_modes, verdict->true_impulse_error, verdict->reported_impulse,
            verdict->sub_impacts, 1e3 * verdict->seconds,
            result->status ? result->fault.text : result->reason);
-    for (size_t c = 0; c < result->contact_count; c++)
+    for (size_t c = 0; c < result->contact_count; c++) {
+        const struct solve_contact_result *contact = &result->contacts[c];
         printf("    contact %zu: e %.9f, %zu sub-impacts, impulse %.9g +- %.2g (models %.2g) N s\n",
                c, result->contacts[c].restitution, result->contacts[c].sub_impact_count,
                result->contacts[c].impulse, result->contacts[c].impulse_error,
                result->contacts[c].impulse_error_model);
+        printf("      tangential impulse %.9g %.9g +- %.2g (models %.2g) N s\n",
+               contact->impulse_tangential[0], contact->impulse_tangential[1],
+               contact->impulse_tangential_error, contact->impulse_tangential_error_model);
+    }
     for (size_t w = 0; w < result->warning_count; w++)
         printf("    warning: %s\n", result->warnings[w]);
 }
@@ -116,18 +121,19 @@ static bool answer(struct campaign *campaign, struct scene_drawn *scene, double 
     return true;
 }
 
-/* Whether the errors of modes, steps and cells cover the tangential impulses'. */
-static bool covers_tangential(const struct truth *truth, const struct solve_result *result)
+/* The largest error of a tangential impulse over what modes, steps and cells state. */
+static double tangential_share(const struct truth *truth, const struct solve_result *result)
 {
+    double worst = 0.0;
     for (size_t c = 0; c < truth->contacts; c++) {
         const struct solve_contact_result *contact = &result->contacts[c];
         const double *t = contact->impulse_tangential, *right = truth->tangential[c];
         double given = contact->impulse_tangential_error - contact->impulse_tangential_error_model +
                        truth->impulse_spread + truth->tangential_spread;
-        if (!(hypot(t[0] - right[0], t[1] - right[1]) <= given))
-            return false;
+        double error = hypot(t[0] - right[0], t[1] - right[1]);
+        worst = fmax(worst, error > 0.0 ? error / given : 0.0);
     }
-    return true;
+    return worst;
 }
 
 static void judge(const struct campaign *campaign, const struct truth *truth, bool found,
@@ -148,7 +154,7 @@ static void judge(const struct campaign *campaign, const struct truth *truth, bo
     verdict->impulse_spread = found ? truth->impulse_spread : INFINITY;
     verdict->impulses = found && truth_covers_impulses(truth, impulse, given);
     verdict->velocities = found && truth_covers_velocities(truth, impulse, given);
-    verdict->tangential = found && covers_tangential(truth, result);
+    verdict->tangential_share = found ? tangential_share(truth, result) : INFINITY;
     verdict->true_sub_impacts = truth->sub_impacts;
     if (campaign->settings.chatty)
         print_answer(result, verdict);
@@ -190,11 +196,11 @@ static size_t stratum_of(size_t sub_impacts)
 
 static void list_verdict(const struct campaign *campaign, const struct verdict *verdict)
 {
-    printf("%s,%llu,%g,%d,%.4g,%.4g,%.4g,%zu,%zu,%zu,%.4g\n",
+    printf("%s,%llu,%g,%d,%.4g,%.4g,%.4g,%zu,%zu,%zu,%.4g,%.4g\n",
            scene_class_word(campaign->settings.class), (unsigned long long)verdict->scene,
            verdict->tolerance, verdict->met, verdict->reported, verdict->true_error,
            verdict->spread, verdict->sub_impacts, verdict->true_sub_impacts, verdict->modes,
-           verdict->seconds);
+           verdict->seconds, verdict->tangential_share);
 }
 
 /* All three answers; `modes`: the most that a body took. False: refused. */

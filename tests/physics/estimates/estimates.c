@@ -66,7 +66,7 @@ static int run_all(struct campaign_settings settings)
     size_t broken = 0;
     if (settings.list)
         printf("class,scene,tolerance,met,reported,true_error,spread,sub_impacts,true_sub_impacts,"
-               "modes,seconds\n");
+               "modes,seconds,tangential_share\n");
     else if (!settings.chatty)
         tally_head(stdout, settings.csv);
     for (int k = 0; k < CLASS_COUNT; k++) {

@@ -55,7 +55,7 @@ bool tally_add(struct tally *tally, const struct verdict *verdict)
         (verdict->reported_impulse + verdict->impulse_spread) * (1.0 + 1e-9) + 1e-300;
     tally->impulses += verdict->impulses;
     tally->velocities += verdict->velocities;
-    tally->tangential += verdict->tangential;
+    tally->tangential += verdict->tangential_share <= 1.0;
     tally->miscounted += verdict->sub_impacts != verdict->true_sub_impacts;
     bool wrong = verdict->met && error > verdict->tolerance;
     if (wrong)

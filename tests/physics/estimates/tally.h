@@ -20,7 +20,7 @@ struct verdict {
     double reported_impulse, true_impulse_error, impulse_spread; /* N s, of any contact */
     bool met;
     bool impulses, velocities; /* each contact's and each body's own error covers it */
-    bool tangential;           /* and each tangential impulse's */
+    double tangential_share;   /* largest error of a tangential impulse over what is stated */
     size_t sub_impacts, true_sub_impacts;
     size_t modes;   /* of all bodies */
     double seconds; /* processor time */

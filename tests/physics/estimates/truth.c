@@ -194,7 +194,8 @@ static void print_level(const struct level *level, const struct truth *truth)
     printf("  reference: %zu modes of a family, accuracy %.0e%s: e", level->modes, level->accuracy,
            level->cvode ? ", CVODE" : "");
     for (size_t c = 0; c < truth->contacts; c++)
-        printf(" %.9f", truth->impulse[c] / truth->compression[c] - 1.0);
+        printf(" %.9f, tangential %.9g %.9g N s;", truth->impulse[c] / truth->compression[c] - 1.0,
+               truth->tangential[c][0], truth->tangential[c][1]);
     printf(", %zu sub-impacts, spread %.2e, work %.2e\n", truth->sub_impacts, truth->spread,
            truth->work);
 }

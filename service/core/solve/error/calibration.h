@@ -60,6 +60,10 @@ static const double STEPS_LEFT_POWER = 0.8;
  * Elastic balls leave 0.04, such that yield, whose cells move, up to 0.1 (estimates --class
  * oblique). */
 static const double FRICTION_LEFT = 0.1;
+/* The same of modes left out where plain friction sticks to a body that vibrates: a contact without
+ * compliance answers to each of them, and the force converges slowly. 98 of 100 scenes leave less,
+ * the worst twice as much, at a tolerance of 1e-2 (estimates --class oblique --plain). */
+static const double PLAIN_MODES_LEFT = 0.01;
 /* Root of the accuracy of the first steps of a contact with friction, in tolerances: the tangential
  * speed is right to the tolerance of the coefficient's (tests/physics/test_oblique.c). */
 static const double FRICTION_STEPS = 3.0;

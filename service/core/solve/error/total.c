@@ -95,6 +95,14 @@ static double along_over_normal(const struct problem *problem, size_t friction)
     return fmax(1.0, along / w[contact * (rows + 1)]);
 }
 
+/* Of Coulomb's limit, what modes left out do to plain friction that does not slide throughout. */
+static double plain_leaves(const struct solution *solution,
+                           const struct solve_contact_result *contact)
+{
+    bool rings = solution->scene->plain && solution->scene->groups > 0;
+    return rings && contact->friction_state != PERCUSS_FRICTION_STATE_SLID ? PLAIN_MODES_LEFT : 0.0;
+}
+
 /* Of the tangential impulses: modes and steps by what they do to the normal ones, by the solutions
  * beside and by what cells and bends of the force leave; the models by the coefficient's deviation,
  * by the normal impulse, and by the unknown part of the tangential stiffness, which changes the
@@ -116,7 +124,8 @@ static void report_tangential(const struct problem *problem, const struct soluti
         struct deviation_along along = deviation_along(problem, friction);
         models += (along.stiffness + along.waves) * limit;
         contact->impulse_tangential_error_model = models;
-        double sum = normal + fmax(cells, solution->neighbours->tangential[c]) + models;
+        double sum = normal + fmax(cells, solution->neighbours->tangential[c]) +
+                     plain_leaves(solution, contact) * limit + models;
         /* from one end of Coulomb's range to the other */
         contact->impulse_tangential_error =
             fmin(sum, 2.0 * friction->coefficient * (contact->impulse + contact->impulse_error));
