@@ -428,10 +428,6 @@ static const double SHARE_TO_OPENING = 0.85;
  * worst tangential speed is wrong by 1e-3 of the coefficient's at an accuracy of 1e-4, by 2e-4 at
  * 1e-5; without it by twice and twenty times as much. */
 static const double TANGENTIAL_ROUGHNESS = 10.0;
-/* The same where plain friction sticks or slides all along a step. As careful as the normal forces
- * (1) it leaves 2.04e-5 of the energy of one of 30 random toys open, where 2e-5 is allowed
- * (test_friction_random.c); why it is more than theirs is not known. 10 doubles the cost. */
-static const double SMOOTH_ROUGHNESS = 3.0;
 
 /* A contact that opens without speed in a group has no scale of its own: its roughness counts
  * against this share of the group's force. */
@@ -578,7 +574,7 @@ static double tangents_roughness(const struct modal_run *run, double group)
         const struct scene_friction *friction = &scene->friction[i];
         double limit = friction->coefficient * force_scale(run, friction->contact, group);
         double rounding = friction_step_rounding(run->step.friction, i);
-        double factor = bends(run, i) ? TANGENTIAL_ROUGHNESS : SMOOTH_ROUGHNESS;
+        double factor = bends(run, i) ? TANGENTIAL_ROUGHNESS : 1.0;
         for (size_t t = 0; t < 2; t++) {
             double rough = rough_part(run, scene_tangent(scene, i) + t, scene->contacts > 1);
             worst = larger(worst, factor * (rough - rounding) / limit);
