@@ -8,20 +8,9 @@
 #include "mesh/mesh_check.h"
 #include "reduce/modes.h"
 #include "reduce/options.h"
+#include "reduce/progress.h"
 #include "reduce/reduced_body.h"
 #include "reduce/sites.h"
-
-/* Progress on standard error: one line that is written over on a terminal, else a line now and
- * then.
- */
-struct progress {
-    const char *label;     /* of the present stage */
-    bool terminal, stages; /* a line for each stage too */
-    double pause;          /* s between lines */
-    double start, told;    /* s of a clock */
-    double from, share;    /* of the work: before the present stage, and its own */
-    double work, expected; /* s: when modes began to be sought, and all from there on; 0: unknown */
-};
 
 struct reduction {
     const struct options *options;
