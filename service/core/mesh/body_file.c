@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/atomic_file.h"
+#include "mesh/sites_file.h"
 
 static const char FORMAT[] = "percuss body";
 static const unsigned VERSION = 1;
@@ -545,6 +546,14 @@ static enum percuss_status write_dataset(const struct body_file *file, const str
                 : body_file_refuse(file, "%s: cannot be written: is the disk full?", layout->name);
 }
 
+/* Where a body comes from whose sites are solved for later. */
+static bool write_origin(const struct body_file *file, const struct mesh_body_origin *origin)
+{
+    return !origin->mesh || (write_attribute(file->id, "mesh", origin->mesh) &&
+                             write_attribute(file->id, "mesh_options", origin->options) &&
+                             write_attribute(file->id, "mesh_hash", origin->hash));
+}
+
 static enum percuss_status write_layout(const struct body_file *file, const struct mesh_body *body)
 {
     struct layout list[LAYOUT_MOST];
@@ -563,7 +572,8 @@ static enum percuss_status write_layout(const struct body_file *file, const stru
     if (!status && !(write_attribute(file->id, "format", FORMAT) && write_version(file->id) &&
                      write_attribute(file->id, "hash", body->hash) &&
                      write_attribute(file->id, "source", body->source) &&
-                     write_attribute(file->id, "supports", body->supports)))
+                     write_attribute(file->id, "supports", body->supports) &&
+                     write_origin(file, &body->origin)))
         status = body_file_refuse(file, "cannot be written: is the disk full?");
     layout_flat_free(&flat);
     return status;
@@ -628,6 +638,28 @@ static bool read_attribute(const struct body_file *file, const char *name, char 
     H5Tclose(stored);
     H5Aclose(attribute);
     return good;
+}
+
+/* The attribute as a text for free(); false: it is longer than MOST_TEXT, or there is no memory. */
+static bool read_text(const struct body_file *file, const char *name, char **text)
+{
+    enum { MOST_TEXT = 65536 };
+    *text = malloc(MOST_TEXT);
+    return *text && read_attribute(file, name, *text, MOST_TEXT) && strlen(*text) + 1 < MOST_TEXT;
+}
+
+/* Nothing where all flexibility stands in the faces. */
+static enum percuss_status read_origin(const struct body_file *file,
+                                       struct mesh_body_origin *origin)
+{
+    if (H5Aexists(file->id, "mesh") <= 0)
+        return PERCUSS_OK;
+    return read_text(file, "mesh", &origin->mesh) &&
+                   read_text(file, "mesh_options", &origin->options) &&
+                   read_attribute(file, "mesh_hash", origin->hash, sizeof origin->hash)
+               ? PERCUSS_OK
+               : body_file_refuse(file, "mesh, mesh_options or mesh_hash: is missing: the file is "
+                                        "damaged");
 }
 
 static enum percuss_status check_format(const struct body_file *file)
@@ -779,7 +811,16 @@ static enum percuss_status read_layout(const struct body_file *file, struct mesh
                      read_attribute(file, "supports", body->supports, sizeof body->supports)))
         status =
             body_file_refuse(file, "hash, source or supports: is missing: the file is no body's");
-    return status;
+    return status ? status : read_origin(file, &body->origin);
+}
+
+/* Its path, and the sites that were added to it. */
+static enum percuss_status complete(const char *path, struct mesh_body *body, struct fault *fault)
+{
+    body->path = strdup(path);
+    if (!body->path)
+        return fault_set(fault, PERCUSS_INTERNAL, "%.200s: out of memory", path);
+    return mesh_body_is_later(body) ? sites_file_read(body, fault) : PERCUSS_OK;
 }
 
 enum percuss_status body_file_read(const char *path, struct mesh_body **body, struct fault *fault)
@@ -808,6 +849,8 @@ enum percuss_status body_file_read(const char *path, struct mesh_body **body, st
     if (!status && mesh_body_check(made, &inner))
         status = body_file_refuse(&file, "%s", inner.text);
     hdf5_guard_end(&guard);
+    if (!status)
+        status = complete(path, made, fault);
     if (status)
         mesh_body_free(made);
     else

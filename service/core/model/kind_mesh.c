@@ -215,6 +215,14 @@ static const struct body_site *site_near(const struct body *body, const struct m
     return NULL;
 }
 
+/* A place in the mesh's own frame and unit. */
+static void place_in_file(const struct mesh_body *mesh, const struct mesh_place *place,
+                          double point[3])
+{
+    for (int k = 0; k < 3; k++)
+        point[k] = (place->point[k] + mesh->centre[k]) / mesh->unit;
+}
+
 static struct face face_at(const struct body *body, const struct mesh_place *place,
                            const double point[3])
 {
@@ -250,8 +258,10 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
         .fitted = !curvature,
         .flexibility = spot.flexibility * mesh_ratio_flexibility(body),
         .slope = spot.slope * mesh_ratio_flexibility(body),
+        .unsolved = spot.unsolved,
         .remark = site && site->remark[0] ? site->remark : NULL,
     };
+    place_in_file(body->mesh, place, face.spot.foot);
     for (int k = 0; k < 6; k++)
         face.spot.tensor[k] = spot.tensor[k] * mesh_ratio_flexibility(body);
     return face;
@@ -275,6 +285,9 @@ static const char *mesh_kind_why_not(const struct body *body, const struct site 
         return "the surface's normal and curvature are not known there within 5 degrees: declare a "
                "site with point, normal and curvatures, or refine the mesh";
     if (body->rigid || body->mesh->mode_count == 0 || !isnan(site->spot.flexibility))
+        return NULL;
+    /* a later solution may cover it */
+    if (site->spot.unsolved)
         return NULL;
     if (site->spot.edge < site->spot.element)
         return "the body's flexibility is not known there: the mesh is too coarse so near to an "
@@ -369,6 +382,9 @@ static void mesh_kind_describe(const struct body *body, struct body_description 
                      mesh->omega[mesh->mode_count - 1] *
                          sqrt(mesh_ratio_of(body).young / mesh_ratio_of(body).density) /
                          (body->scale * 2.0 * M_PI));
+    if (mesh_body_is_later(mesh) && !body->rigid)
+        describe_add(description, "flexibility at %zu place%s", mesh->added_count,
+                     mesh->added_count == 1 ? "" : "s");
     damping_describe(body, description);
     if (body->modes > 0)
         describe_add(description, "%u of them taking part", body->modes);

@@ -7,12 +7,15 @@
 #include <stdlib.h>
 
 #include "model/limits.h"
+#include "model/vector.h"
 
 /* Rounding of a tensor's symmetry, and of a unit vector's length in float. */
 static const double ASYMMETRY = 1e-6;
 static const double UNIT_LENGTH = 1e-4;
 /* And of a tensor and a normal in float. */
 static const double SAME_FLEXIBILITY = 1e-5;
+/* Of half a thickness. */
+static const double SITE_REACH = 0.1;
 
 static enum percuss_status check_inertia(const struct mesh_body *body, struct fault *fault)
 {
@@ -171,6 +174,30 @@ void mesh_body_set_normal(const double n[3], double value, double tensor[6])
         tensor[k] += more * n[ROW[k]] * n[COLUMN[k]];
 }
 
+double mesh_body_site_reach(const struct mesh_body *body)
+{
+    return SITE_REACH * body->volume / body->area;
+}
+
+const struct mesh_body_site *mesh_body_added_at(const struct mesh_body *body, unsigned face,
+                                                const double point[3])
+{
+    const struct mesh_body_site *unknown = NULL;
+    double reach = mesh_body_site_reach(body);
+    for (size_t i = 0; i < body->added_count; i++) {
+        const struct mesh_body_site *site = &body->added[i];
+        double apart[3];
+        sub3(site->point, point, apart);
+        if (!(norm3(apart) <= reach))
+            continue;
+        if (body->faces[site->face].patch == body->faces[face].patch)
+            return site;
+        if (!unknown && isnan(site->flexibility))
+            unknown = site;
+    }
+    return unknown;
+}
+
 void mesh_body_free(struct mesh_body *body)
 {
     if (!body)
@@ -184,6 +211,10 @@ void mesh_body_free(struct mesh_body *body)
     free(body->site_point);
     free(body->site_normal);
     free(body->between);
+    free(body->path);
+    free(body->origin.mesh);
+    free(body->origin.options);
+    free(body->added);
     free(body->boxes);
     free(body->order);
     free(body->rim_first);

@@ -46,6 +46,22 @@ struct mesh_rim {
     float from[3], to[3];
 };
 
+/* A place of the surface whose flexibility was solved for after the body was made: as in struct
+ * mesh_body_face, it holds for contacts within mesh_body_site_reach of `point`. */
+struct mesh_body_site {
+    unsigned face;
+    double point[3];    /* on the surface, m, from the centre of mass */
+    double flexibility; /* m/N; NAN: the mesh cannot say it there */
+    double tensor[6];   /* m/N; NAN: not known */
+};
+
+/* Where a body comes from whose sites are solved for later. */
+struct mesh_body_origin {
+    char *mesh;    /* path of the mesh; from malloc, as the next one */
+    char *options; /* how it is read, see service/tools/reduce/recipe.h */
+    char hash[65]; /* SHA-256 of mesh, materials and supports */
+};
+
 struct mesh_body {
     /* provenance */
     char hash[65];       /* SHA-256 of its sources: mesh, materials, supports, settings */
@@ -72,6 +88,11 @@ struct mesh_body {
     size_t face_count;
     struct mesh_body_face *faces;
     bool all_ways; /* the faces' tensors are there */
+    /* flexibility at single places, where faces have none: solved for when it is asked for */
+    char *path;                     /* of its file; NULL: not from a file */
+    struct mesh_body_origin origin; /* mesh NULL: all its flexibility stands in its faces */
+    size_t added_count;
+    struct mesh_body_site *added; /* [added_count], in the order in which they were added */
     /* flexibility between places, for several contacts: the response at one surface site to a
      * unit normal force at another, without the first `removed` modes, m/N; good from `near` on */
     size_t site_count;
@@ -98,6 +119,22 @@ enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *
  * node of a face, whose tensor is known there. */
 bool mesh_body_tensor_possible(const struct mesh_body *body, const struct mesh_body_face *face,
                                int node);
+
+/* Whether flexibilities are solved for at places that are asked for, and the faces have none. */
+static inline bool mesh_body_is_later(const struct mesh_body *body)
+{
+    return body->origin.mesh != NULL;
+}
+
+/* The distance from an added site within which its flexibility holds, m: a tenth of half a
+ * thickness (volume over surface), as declared normals of named sites do. */
+double mesh_body_site_reach(const struct mesh_body *body);
+
+/* The first added site on the face's patch whose flexibility holds at a point of the face (m, the
+ * file's frame and size), so that further ones change no answer there. Without one, the first of
+ * any patch that the mesh could not say: on an edge a place belongs to both. NULL: none. */
+const struct mesh_body_site *mesh_body_added_at(const struct mesh_body *body, unsigned face,
+                                                const double point[3]);
 
 /* Gives a symmetric tensor, xx yy zz xy yz zx, the value n.tensor n along a unit vector. */
 void mesh_body_set_normal(const double n[3], double value, double tensor[6]);

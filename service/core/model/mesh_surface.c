@@ -357,6 +357,21 @@ static void tensor_lay_across(const double n[3], double curvature[9])
             curvature[3 * i + j] += n[i] * n[j] * along - n[i] * image[j] - image[i] * n[j];
 }
 
+/* The flexibility of the added site there, if there is one. */
+static void take_added(const struct mesh_body *body, unsigned face, const double *shape,
+                       struct mesh_spot *spot)
+{
+    double points[FACET_MOST_NODES][3], point[3];
+    face_points(body, &body->faces[face], points);
+    combine(body->faces[face].count, points, shape, point);
+    const struct mesh_body_site *site = mesh_body_added_at(body, face, point);
+    spot->unsolved = !site;
+    if (!site)
+        return;
+    spot->flexibility = site->flexibility;
+    memcpy(spot->tensor, site->tensor, sizeof spot->tensor);
+}
+
 struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, double u, double v)
 {
     const struct mesh_body_face *at = &body->faces[face];
@@ -378,6 +393,8 @@ struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, do
                 spot.tensor[k] += body->all_ways ? shape[i] * (double)at->tensor[i][k] : NAN;
         }
     }
+    if (mesh_body_is_later(body))
+        take_added(body, face, shape, &spot);
     /* a unit normal, and a tensor across it: xx yy zz xy yz zx */
     static const int PLACES[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     double length = norm3(spot.normal);

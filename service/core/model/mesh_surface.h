@@ -27,6 +27,7 @@ struct mesh_spot {
     double flexibility;  /* m/N, see struct mesh_body_face; NAN: not known */
     double slope;
     double tensor[6]; /* the same between all directions; NAN: not known */
+    bool unsolved;    /* the flexibility: nobody has asked for it there (mesh_body_is_later) */
 };
 
 /* Makes the search structures of a body. False: out of memory. */
@@ -40,6 +41,8 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
 /* Size of a face: the longest of its edges, from corner to corner, m. */
 double mesh_surface_face_size(const struct mesh_body *body, unsigned face);
 
+/* Its flexibility is that of the faces or, of a body whose sites are solved for later, that of the
+ * added site there. */
 struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, double u, double v);
 
 #endif

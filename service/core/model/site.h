@@ -30,6 +30,9 @@ struct face_spot {
     double flexibility; /* regular, m/N, see struct mesh_body_face; NAN: not known */
     double slope;
     double tensor[6];   /* the same between all directions, body frame; NAN: not known */
+    bool unsolved;      /* the flexibility is not solved for yet: a caller that needs it refuses the
+                           site */
+    double foot[3];     /* the place in the mesh's own frame and unit */
     const char *remark; /* of the named site there; NULL: none */
 };
 

@@ -419,6 +419,25 @@ enum percuss_status placement_find_rates(struct problem *problem, struct fault *
     return status ? status : find_compression(problem, fault);
 }
 
+/* Refuses a place whose flexibility is not solved for yet. */
+static enum percuss_status check_solved(const struct problem *problem, struct fault *fault)
+{
+    for (size_t i = 0; i < problem->contact_count; i++)
+        for (int which = 0; which < 2; which++) {
+            const struct contact_side *side = &problem->sides[i][which];
+            const struct body *body = problem->bodies[side->body];
+            const double *foot = side->site.spot.foot;
+            if (side->site.spot.unsolved && body_is_flexible(body))
+                return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                                 "contacts[%zu].point: on mesh %s: its flexibility there is not "
+                                 "solved for yet: percuss-reduce --add-sites '%s' --site "
+                                 "%.9g,%.9g,%.9g solves it",
+                                 i, body->id, body->mesh->path ? body->mesh->path : "BODY.h5",
+                                 foot[0], foot[1], foot[2]);
+        }
+    return PERCUSS_OK;
+}
+
 enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
                                    struct fault *fault)
 {
@@ -438,7 +457,7 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         status = choose_w(problem, fault);
     if (!status)
         status = placement_find_rates(problem, fault);
-    return status;
+    return status ? status : check_solved(problem, fault);
 }
 
 enum percuss_status formulate(struct problem *problem, const struct solve_context *context,

@@ -23,6 +23,8 @@ enum {
     RAISE,
     INSTANCE,
     SITE,
+    FLEXIBILITY,
+    ADD_SITES,
     STIFFNESS,
     MASS,
     FREEDOMS,
@@ -73,6 +75,14 @@ static const struct argp_option list[] = {
     {"freedoms", FREEDOMS, "DOF", 0, "and which row is which direction (.dof)", 2},
     {"site", SITE, "X,Y,Z", 0,
      "A place that will be hit, in the unit or such as 0,20mm,45mm (as often as needed)", 2},
+    {"flexibility", FLEXIBILITY, "WHEN", 0,
+     "That of the surface is solved for ahead (default) or later: at the sites alone, to which "
+     "--add-sites adds others",
+     2},
+    {"add-sites", ADD_SITES, "BODY.h5", 0,
+     "Solve for it at the sites and add them to a body that was made so; FILE, if the mesh has "
+     "moved, but no other option of it",
+     2},
     {NULL, 0, NULL, 0, "What is told:", 3},
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
     {"json", JSON, NULL, 0, "The report as one JSON object", 3},
@@ -139,34 +149,46 @@ static bool read_length(const char *text, size_t length, double unit, double *nu
     return true;
 }
 
-static void read_site(struct argp_state *state, struct options *options, size_t i)
+static bool read_site(const char *at, double unit, double site[3])
 {
-    double *site = options->sites[i];
-    const char *at = options->site_texts[i];
     for (int k = 0; k < 3; k++) {
         size_t length = strcspn(at, ",");
         bool last = k == 2;
-        if ((at[length] == '\0') != last || !read_length(at, length, options->unit, &site[k]))
-            argp_error(state,
-                       "--site: %s: must be three numbers, X,Y,Z, in the unit of the mesh or with "
-                       "their own, such as 8mm",
-                       options->site_texts[i]);
+        if ((at[length] == '\0') != last || !read_length(at, length, unit, &site[k]))
+            return false;
         at += length + !last;
     }
+    return true;
 }
 
-/* When the unit of the mesh is known. */
+enum percuss_status options_read_sites(struct options *options, struct fault *fault)
+{
+    for (size_t i = 0; i < options->site_count; i++)
+        if (!read_site(options->site_texts[i], options->unit, options->sites[i]))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "--site: %s: must be three numbers, X,Y,Z, in the unit of the mesh or "
+                             "with their own, such as 8mm",
+                             options->site_texts[i]);
+    return PERCUSS_OK;
+}
+
+/* When the unit of the mesh is known: that of a body to add to stands in its file. */
 static void read_lengths(struct argp_state *state, struct options *options)
 {
     const char *size = options->size_text;
+    if (options->add_to)
+        return;
+    if (!(options->unit > 0.0))
+        options->unit = 1.0;
     if (size && !(read_length(size, strlen(size), options->unit, &options->size) &&
                   options->size >= 1e-9 && options->size <= 1e9))
         argp_error(state,
                    "--size: %s: must be a number, 1e-09 to 1e+09, in the unit of the mesh, or a "
                    "length with its own, such as 8mm",
                    size);
-    for (size_t i = 0; i < options->site_count; i++)
-        read_site(state, options, i);
+    struct fault fault;
+    if (options_read_sites(options, &fault))
+        argp_error(state, "%s", fault.text);
 }
 
 static error_t parse_material(int key, char *text, struct argp_state *state)
@@ -247,6 +269,14 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
         check_room(state, "fixed", options->fixed_count);
         options->fixed[options->fixed_count++] = text;
         return 0;
+    case FLEXIBILITY:
+        options->later = strcmp(text, "later") == 0;
+        if (!options->later && strcmp(text, "ahead") != 0)
+            argp_error(state, "--flexibility: %s: must be ahead or later", text);
+        return 0;
+    case ADD_SITES:
+        options->add_to = text;
+        return 0;
     case SITE:
         check_room(state, "site", options->site_count);
         options->site_texts[options->site_count++] = text;
@@ -256,8 +286,26 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
     }
 }
 
+/* The body's file has all else. */
+static void options_check_adding(struct argp_state *state, const struct options *options)
+{
+    bool numbers = !isnan(options->young) || !isnan(options->poisson) || !isnan(options->density);
+    if (options->site_count == 0)
+        argp_error(state, "--add-sites: needs --site X,Y,Z");
+    if (options->body || options->vtk || options->later || numbers || options->material ||
+        options->part_count || options->catalogue || options->unit > 0.0 || options->size_text ||
+        options->raise || options->instance || options->fixed_count || options->stiffness ||
+        options->mass || options->freedoms || options->modes || options->max_frequency > 0.0)
+        argp_error(state, "--add-sites: must be given with --site, FILE, --json and --progress "
+                          "alone: all else stands in the body's file");
+}
+
 static void options_check(struct argp_state *state, const struct options *options)
 {
+    if (options->add_to) {
+        options_check_adding(state, options);
+        return;
+    }
     bool numbers = !isnan(options->young) || !isnan(options->poisson) || !isnan(options->density);
     if (!options->file)
         argp_error(state, "FILE must be given");
@@ -271,6 +319,8 @@ static void options_check(struct argp_state *state, const struct options *option
         argp_error(state, "--stiffness and --mass must be given together");
     if (options->modes && options->max_frequency > 0.0)
         argp_error(state, "--modes: must be given without --max-frequency");
+    if (options->later && options->stiffness)
+        argp_error(state, "--flexibility later: must be given without --stiffness and --mass");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -313,7 +363,7 @@ struct options options_read(int argc, char **argv)
         .options = list,
         .parser = parse,
         .children = habits,
-        .args_doc = "FILE",
+        .args_doc = "FILE -o BODY.h5\n--add-sites BODY.h5 --site X,Y,Z",
         .doc =
             "Reduces a body that is given as a mesh of second-order elements to its modes of "
             "vibration and what else an impact needs of it, in a file for the catalogue."
@@ -321,7 +371,7 @@ struct options options_read(int argc, char **argv)
             "(.bdf); .step, .stl and more where Gmsh is installed. The report goes to "
             "standard output, progress to standard error.",
     };
-    struct options options = {.young = NAN, .poisson = NAN, .density = NAN, .unit = 1.0};
+    struct options options = {.young = NAN, .poisson = NAN, .density = NAN};
     argp_err_exit_status = USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &options);
     return options;

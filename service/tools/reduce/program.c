@@ -121,6 +121,32 @@ static void tell_flexibility(const struct reduction *reduction)
                1e3 * sites->thinnest, 1.5e3 * sites->thinnest);
 }
 
+/* A line of each site that was solved for by itself. */
+static void tell_alone(const struct reduction *reduction)
+{
+    for (size_t i = 0; i < reduction->options->site_count; i++) {
+        const struct site_alone *alone = &reduction->alone[i];
+        if (alone->unknown)
+            fprintf(stderr,
+                    "percuss-reduce: warning: --site: %s: its flexibility is not known: %s\n",
+                    reduction->options->site_texts[i], alone->unknown);
+        else
+            printf("site            %s: %.6g m/N without %zu modes, solved %.3g mm beside it\n",
+                   reduction->options->site_texts[i], alone->site.flexibility,
+                   reduction->body->removed, 1e3 * alone->aside);
+    }
+}
+
+static void report_added(const struct reduction *reduction)
+{
+    const struct options *options = reduction->options;
+    tell_alone(reduction);
+    printf("%s: %zu site%s added, %zu in all, %.1f s (%.1f s the factor, %.1f s the sites)\n",
+           options->add_to, reduction->added, reduction->added == 1 ? "" : "s",
+           reduction->body->added_count, reduction->seconds, reduction->modes_seconds,
+           reduction->sites_seconds);
+}
+
 static void report_text(const struct reduction *reduction)
 {
     const struct options *options = reduction->options;
@@ -134,7 +160,10 @@ static void report_text(const struct reduction *reduction)
         printf("held            %s; %zu motion%s as a whole left\n", reduction->supports,
                reduction->task.rigid.count, reduction->task.rigid.count == 1 ? "" : "s");
     tell_modes(reduction);
-    tell_flexibility(reduction);
+    if (options->later)
+        tell_alone(reduction);
+    else
+        tell_flexibility(reduction);
     printf("%s: %.12s, %.1f s\n", options->body, reduction->body->hash, reduction->seconds);
 }
 
@@ -212,6 +241,36 @@ static void put_warnings(const struct reduction *reduction)
     putchar(']');
 }
 
+/* a line of each */
+static void put_alone(const struct reduction *reduction)
+{
+    printf(",\n  \"site_list\": [");
+    for (size_t i = 0; i < reduction->options->site_count; i++) {
+        const struct site_alone *alone = &reduction->alone[i];
+        put_text(i ? ",\n    {\"site\": " : "\n    {\"site\": ", reduction->options->site_texts[i]);
+        put_member(", ", "flexibility", alone->site.flexibility);
+        put_member(", ", "aside", alone->aside);
+        put_text(", \"unknown\": ", alone->unknown ? alone->unknown : "");
+        putchar('}');
+    }
+    putchar(']');
+}
+
+static void report_added_json(const struct reduction *reduction)
+{
+    put_text("{\n  \"file\": ", reduction->options->file);
+    put_text(",\n  \"body\": ", reduction->options->add_to);
+    put_text(",\n  \"hash\": ", reduction->body->hash);
+    put_count("sites_added", reduction->added);
+    put_count("sites", reduction->body->added_count);
+    put_count("modes_removed", reduction->body->removed);
+    put_alone(reduction);
+    put_number("seconds", reduction->seconds);
+    put_number("seconds_factor", reduction->modes_seconds);
+    put_number("seconds_sites", reduction->sites_seconds);
+    printf("\n}\n");
+}
+
 /* One JSON object, numbers with 17 digits. */
 static void report_json(const struct reduction *reduction)
 {
@@ -260,6 +319,8 @@ static void report_json(const struct reduction *reduction)
     put_number("flexibility_largest_error", sites->largest_error);
     put_number("force_imbalance", sites->imbalance);
     put_number("response_asymmetry", sites->asymmetry);
+    if (reduction->options->later)
+        put_alone(reduction);
     put_warnings(reduction);
     put_number("memory", reduction->cost.memory);
     put_number("seconds", reduction->seconds);
@@ -275,11 +336,12 @@ int program_run(int argc, char **argv)
     struct options options = options_read(argc, argv);
     struct reduction reduction;
     struct fault fault = {""};
-    enum percuss_status status = reduction_run(&options, &reduction, &fault);
-    if (!status && options.json)
-        report_json(&reduction);
+    enum percuss_status status = options.add_to ? reduction_add_sites(&options, &reduction, &fault)
+                                                : reduction_run(&options, &reduction, &fault);
+    if (!status && options.add_to)
+        (options.json ? report_added_json : report_added)(&reduction);
     else if (!status)
-        report_text(&reduction);
+        (options.json ? report_json : report_text)(&reduction);
     reduction_free(&reduction);
     if (!status)
         return EXIT_SUCCESS;

@@ -50,11 +50,11 @@ static void name_matrix(const struct sparse *matrix, struct sha256 *hash)
     sha256_add(hash, matrix->value, matrix->start[matrix->n] * sizeof *matrix->value);
 }
 
-/* Hash of all input that determines the file. */
-static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
+/* Of the mesh, its materials and supports, or the matrices that stand for them. */
+static struct sha256 begin_name(const struct solid_mesh *mesh, const bool *held,
+                                const struct matrices *foreign)
 {
     /* the mesh */
-    const struct solid_mesh *mesh = parts->mesh;
     struct sha256 hash = sha256_begin();
     sha256_add(&hash, mesh->points, mesh->node_count * sizeof *mesh->points);
     sha256_add(&hash, mesh->types, mesh->element_count);
@@ -73,12 +73,27 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
     if (mesh->mass_count)
         sha256_add(&hash, mesh->masses, mesh->mass_count * sizeof *mesh->masses);
     /* supports, and matrices from elsewhere */
-    if (parts->held)
-        sha256_add(&hash, parts->held, 3 * mesh->node_count * sizeof *parts->held);
-    if (parts->foreign) {
-        name_matrix(&parts->foreign->stiffness, &hash);
-        name_matrix(&parts->foreign->mass, &hash);
+    if (held)
+        sha256_add(&hash, held, 3 * mesh->node_count * sizeof *held);
+    if (foreign) {
+        name_matrix(&foreign->stiffness, &hash);
+        name_matrix(&foreign->mass, &hash);
     }
+    return hash;
+}
+
+void reduced_body_hash_mesh(const struct solid_mesh *mesh, const bool *held, char text[SHA256_TEXT])
+{
+    struct sha256 hash = begin_name(mesh, held, NULL);
+    sha256_end(&hash, text);
+}
+
+/* Hash of all input that determines the file. */
+static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
+{
+    struct sha256 hash = begin_name(parts->mesh, parts->held, parts->foreign);
+    if (parts->mesh_path)
+        sha256_add(&hash, "later", sizeof "later");
     /* the requested sites and modes */
     sha256_add(&hash, parts->sites, parts->site_count * sizeof *parts->sites);
     sha256_add(&hash, &parts->modes->count, sizeof parts->modes->count);
@@ -192,6 +207,15 @@ enum percuss_status reduced_body_make(const struct reduced_parts *parts, struct 
     snprintf(made->source, sizeof made->source, "%s", parts->source);
     snprintf(made->supports, sizeof made->supports, "%s", parts->supports);
     made->supported = parts->held != NULL;
+    if (parts->mesh_path) {
+        made->origin.mesh = strdup(parts->mesh_path);
+        made->origin.options = strdup(parts->mesh_options);
+        reduced_body_hash_mesh(parts->mesh, parts->held, made->origin.hash);
+    }
+    if (parts->mesh_path && (!made->origin.mesh || !made->origin.options)) {
+        mesh_body_free(made);
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    }
     made->unit = parts->mesh->unit;
     /* the whole body's figures */
     made->volume = bulk->volume;

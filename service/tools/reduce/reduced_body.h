@@ -5,6 +5,7 @@
 #ifndef PERCUSS_REDUCE_REDUCED_BODY_H
 #define PERCUSS_REDUCE_REDUCED_BODY_H
 
+#include "base/sha256.h"
 #include "mesh/bulk.h"
 #include "mesh/surface.h"
 #include "model/mesh_body.h"
@@ -21,12 +22,20 @@ struct reduced_parts {
     size_t site_count;              /* places that flexibility is wanted at exactly */
     const double (*sites)[3];       /* m */
     const char *source, *supports;
+    /* where flexibilities are solved for later: the mesh's file, and how it is read (recipe.h);
+     * NULL: ahead */
+    const char *mesh_path, *mesh_options;
 };
 
 /* Faces stand in the order of the surface's, their flexibility unknown (NAN). For mesh_body_free.
  * PERCUSS_BAD_REQUEST: more than 256 parts; PERCUSS_INTERNAL without memory. */
 enum percuss_status reduced_body_make(const struct reduced_parts *parts, struct mesh_body **body,
                                       struct fault *fault);
+
+/* Hash of a mesh with its materials and held degrees of freedom (NULL: none): that of a body's
+ * origin, if it is of that mesh. */
+void reduced_body_hash_mesh(const struct solid_mesh *mesh, const bool *held,
+                            char text[SHA256_TEXT]);
 
 /* By the divergence theorem: the integral of x.n/3 over the surface, m^3. */
 double reduced_body_enclosed(const struct solid_mesh *mesh, const struct surface *surface);

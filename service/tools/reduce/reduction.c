@@ -16,8 +16,11 @@
 #include "mesh/body_file.h"
 #include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
+#include "mesh/sites_file.h"
 #include "model/limits.h"
+#include "model/mesh_surface.h"
 #include "reduce/forked.h"
+#include "reduce/recipe.h"
 #include "reduce/vtk.h"
 
 /* ---- materials of the parts ---- */
@@ -98,6 +101,15 @@ static enum percuss_status complete_materials(const struct options *options,
                      options->file);
 }
 
+/* It is another mesh than the one that the body was made of. */
+static enum percuss_status refuse_mesh(const struct reduction *reduction, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "%.300s: is not the mesh that %.300s was made of: it has changed since, or "
+                     "Gmsh meshes it otherwise now: reduce it again",
+                     reduction->options->file, reduction->options->add_to);
+}
+
 /* Materials of the command line override those of the mesh's file. PERCUSS_BAD_REQUEST: a part has
  * no material, or there is no such part or material. */
 static enum percuss_status materials_assign(const struct options *options, struct solid_mesh *mesh,
@@ -132,6 +144,18 @@ static enum percuss_status materials_assign(const struct options *options, struc
                              inner.text);
     }
     return status;
+}
+
+/* Those of a body that was made of the mesh. */
+static enum percuss_status materials_of_body(struct reduction *reduction, struct fault *fault)
+{
+    const struct mesh_body *body = reduction->body;
+    struct solid_mesh *mesh = &reduction->mesh;
+    if (mesh->part_count != body->material_count)
+        return refuse_mesh(reduction, fault);
+    for (size_t i = 0; i < mesh->part_count; i++)
+        give_material(&mesh->part[i], &body->materials[i]);
+    return PERCUSS_OK;
 }
 
 /* ---- the stages of a reduction ---- */
@@ -197,14 +221,16 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
     for (size_t i = 0; i < mesh->remark_count; i++)
         fprintf(stderr, "percuss-reduce: warning: %s\n", mesh->remarks[i]);
     if (!status)
-        status = materials_assign(options, mesh, fault);
+        status = reduction->body ? materials_of_body(reduction, fault)
+                                 : materials_assign(options, mesh, fault);
     if (!status)
         status = surface_make(mesh, &reduction->surface, fault);
     if (!status)
         status = surface_fit(mesh, &reduction->surface, fault);
     if (!status)
         status = mesh_check(mesh, &reduction->surface, &reduction->findings, fault);
-    if (!status)
+    /* on that of a body once it is known to be the same */
+    if (!status && !reduction->body)
         status = place_sites(reduction, fault);
     if (status)
         return status;
@@ -339,7 +365,30 @@ static enum percuss_status take_sample(struct reduction *reduction, struct fault
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     reduction->factor_cost = factor_cost(reduction->factor);
     struct sites_task task = sites_task_of(reduction);
+    if (reduction->options->later) {
+        reduction->sample.count = reduction->options->site_count;
+        return PERCUSS_OK;
+    }
     return sites_sample(&task, &reduction->sample, fault);
+}
+
+/* Of what the matrices take themselves, bytes. */
+static double matrices_memory(const struct reduction *reduction)
+{
+    size_t n = reduction->task.rigid.n;
+    return 12.0 * (double)reduction->matrices.stiffness.start[n] +
+           12.0 * (double)reduction->matrices.mass.start[n];
+}
+
+/* Of reduction->cost; both in bytes. */
+static enum percuss_status check_memory(const struct reduction *reduction, double free,
+                                        const char *remedy, struct fault *fault)
+{
+    if (reduction->cost.memory <= free)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "needs %.2g GB of memory, of which %.2g GB are free: %s",
+                     1e-9 * reduction->cost.memory, 1e-9 * free, remedy);
 }
 
 /* Tells time and memory before the first factor, and refuses where the memory does not suffice. */
@@ -350,8 +399,7 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
     reduction->cost =
         modes_cost(&reduction->factor_cost, &reduction->rates, &reduction->matrices, count);
     /* and the matrices themselves */
-    double matrices = 12.0 * (double)reduction->matrices.stiffness.start[n] +
-                      12.0 * (double)reduction->matrices.mass.start[n];
+    double matrices = matrices_memory(reduction);
     double free = free_memory();
     reduction->task.two_factors = reduction->cost.together + matrices < free;
     reduction->task.processes = processes_for(reduction);
@@ -365,19 +413,13 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
         (double)sites * each / (double)processes_for(reduction) + reduction->sample.faces;
     reduction->progress.work = rates_clock();
     reduction->progress.expected = reduction->cost.seconds + reduction->statics;
-    double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free;
     progress_clear(&reduction->progress);
     fprintf(stderr,
             "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, %.2g s for the "
             "modes and %.2g s for the flexibility at %zu sites\n",
-            n, counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds,
-            reduction->statics, sites);
-    if (gigabytes > room)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "needs %.2g GB of memory, of which %.2g GB are free: fewer modes "
-                         "(--modes) or a coarser mesh",
-                         gigabytes, room);
-    return PERCUSS_OK;
+            n, counted ? "" : "up to ", count, 1e-9 * reduction->cost.memory,
+            reduction->cost.seconds, reduction->statics, sites);
+    return check_memory(reduction, free, "fewer modes (--modes) or a coarser mesh", fault);
 }
 
 /* The part of the work that seeking modes is. */
@@ -445,6 +487,16 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     const char *slash = strrchr(reduction->options->file, '/');
     snprintf(source, sizeof source, "%.150s, percuss-reduce %s, %s",
              slash ? slash + 1 : reduction->options->file, PERCUSS_VERSION, date);
+    /* what sites are solved for with later */
+    const struct options *options = reduction->options;
+    char *path = options->later ? realpath(options->file, NULL) : NULL;
+    char *recipe = options->later ? recipe_write(options) : NULL;
+    if (options->later && (!path || !recipe)) {
+        free(path);
+        free(recipe);
+        return fault_set(fault, PERCUSS_INTERNAL, "%.300s: out of memory, or it is gone",
+                         options->file);
+    }
     /* all that the file is made of */
     struct reduced_parts parts = {.mesh = &reduction->mesh,
                                   .surface = &reduction->surface,
@@ -453,17 +505,64 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
                                   .held = reduction->matrices.held,
                                   .foreign =
                                       reduction->options->stiffness ? &reduction->matrices : NULL,
-                                  .site_count = reduction->options->site_count,
+                                  .site_count = options->later ? 0 : options->site_count,
                                   .sites = (const double(*)[3])reduction->sites_asked,
                                   .source = source,
-                                  .supports = reduction->supports};
-    return reduced_body_make(&parts, &reduction->body, fault);
+                                  .supports = reduction->supports,
+                                  .mesh_path = path,
+                                  .mesh_options = recipe};
+    enum percuss_status status = reduced_body_make(&parts, &reduction->body, fault);
+    free(path);
+    free(recipe);
+    return status;
+}
+
+/* Solves for the flexibility at the sites that were asked for, and adds them to the body's file.
+ * The factor is that of K + shift M. */
+static enum percuss_status add_sites(struct reduction *reduction, double shift, struct fault *fault)
+{
+    size_t count = reduction->options->site_count;
+    struct mesh_body_site sites[OPTIONS_MOST];
+    struct watch watch = {progress_show, &reduction->progress};
+    struct sites_task task = sites_task_of(reduction);
+    task.body.factor = reduction->factor;
+    task.body.shift = shift;
+    task.between = false;
+    task.watch = &watch;
+    enum percuss_status status = sites_solve_alone(&task, reduction->body, reduction->alone, fault);
+    if (!status && !mesh_surface_prepare(reduction->body))
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    for (size_t i = 0; i < count; i++)
+        sites[i] = reduction->alone[i].site;
+    return status ? status
+                  : sites_file_add(reduction->body, count, sites, &reduction->added, fault);
+}
+
+/* Of one whose flexibility is solved for later: at its sites alone. The body's file is there then,
+ * as theirs is read with it. */
+static enum percuss_status leave_flexibility(struct reduction *reduction, struct fault *fault)
+{
+    const struct modes *modes = &reduction->modes;
+    const struct options *options = reduction->options;
+    struct sites_task task = sites_task_of(reduction);
+    sites_leave(&task.body, modes->count < REMOVED ? modes->count : REMOVED, reduction->body);
+    enum percuss_status status = body_file_write(options->body, reduction->body, fault);
+    reduction->body->path = strdup(options->body);
+    if (!status && !reduction->body->path)
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (status || options->site_count == 0)
+        return status;
+    double share = modes_share(reduction);
+    progress_stage(&reduction->progress, "flexibility at the sites", share, 1.0 - share);
+    return add_sites(reduction, modes->shift, fault);
 }
 
 static enum percuss_status find_flexibility(struct reduction *reduction, struct fault *fault)
 {
     const struct modes *modes = &reduction->modes;
     size_t removed = modes->count < REMOVED ? modes->count : REMOVED;
+    if (reduction->options->later)
+        return leave_flexibility(reduction, fault);
     struct watch watch = {progress_show, &reduction->progress};
     /* modes that are kept are taken out, as many as pay */
     struct sites_task task = sites_task_of(reduction);
@@ -519,10 +618,112 @@ enum percuss_status reduction_run(const struct options *options, struct reductio
     reduction->sites_seconds = progress_seconds(&reduction->progress) - begun;
     progress_clear(&reduction->progress);
     /* files */
-    if (!status)
+    if (!status && !options->later)
         status = body_file_write(options->body, reduction->body, fault);
     if (!status && options->vtk)
         status = vtk_write(options->vtk, &reduction->mesh, &reduction->modes, fault);
+    reduction->seconds = progress_seconds(&reduction->progress);
+    return status;
+}
+
+/* Of the first elastic mode's square: a step of the solution leaves as much, and of the sixteen
+ * digits rigid motions take three (modes.c). */
+static const double BELOW_FIRST = 1e-3;
+
+/* The body, and the options that its file has. */
+static enum percuss_status read_later_body(struct reduction *reduction, struct options *options,
+                                           struct fault *fault)
+{
+    enum percuss_status status = body_file_read(options->add_to, &reduction->body, fault);
+    if (status)
+        return status;
+    struct mesh_body_origin *origin = &reduction->body->origin;
+    char *sites;
+    if (!mesh_body_is_later(reduction->body))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "%.300s: was not made with --flexibility later: reduce its mesh again "
+                         "with it, or with --site",
+                         options->add_to);
+    /* its own file is not written */
+    if (asprintf(&sites, "%s.sites", options->add_to) < 0)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    status = check_output(sites, fault);
+    free(sites);
+    if (!status)
+        status = recipe_read(origin->options, options, fault);
+    if (!status)
+        status = options_read_sites(options, fault);
+    if (!options->file)
+        options->file = origin->mesh;
+    return status;
+}
+
+/* Tells time and memory before the factor, and refuses where the memory does not suffice. */
+static enum percuss_status estimate_adding(struct reduction *reduction, struct fault *fault)
+{
+    size_t n = reduction->task.rigid.n, count = reduction->options->site_count;
+    reduction->cost.seconds = rates_factor(&reduction->rates, &reduction->factor_cost);
+    reduction->cost.memory = matrices_memory(reduction) + reduction->factor_cost.memory;
+    reduction->statics = (double)(FLEXIBILITY_LOADS * count) *
+                         flexibility_column_seconds(&reduction->rates, &reduction->factor_cost,
+                                                    &reduction->matrices.mass, 0);
+    reduction->progress.work = rates_clock();
+    reduction->progress.expected = reduction->cost.seconds + reduction->statics;
+    progress_clear(&reduction->progress);
+    fprintf(stderr,
+            "percuss-reduce: %zu unknowns: about %.2g GB of memory, %.2g s for their factor and "
+            "%.2g s for the flexibility at %zu site%s\n",
+            n, 1e-9 * reduction->cost.memory, reduction->cost.seconds, reduction->statics, count,
+            count == 1 ? "" : "s");
+    return check_memory(reduction, free_memory(), "a coarser mesh", fault);
+}
+
+/* K + shift M of the mesh that the body was made of. */
+static enum percuss_status factor_again(struct reduction *reduction, double *shift,
+                                        struct fault *fault)
+{
+    const struct mesh_body *body = reduction->body;
+    char hash[SHA256_TEXT];
+    enum percuss_status status = assemble_matrices(reduction, fault);
+    if (status)
+        return status;
+    reduced_body_hash_mesh(&reduction->mesh, reduction->matrices.held, hash);
+    if (strcmp(hash, body->origin.hash) != 0 || reduction->surface.face_count != body->face_count)
+        return refuse_mesh(reduction, fault);
+    status = place_sites(reduction, fault);
+    if (!status)
+        status = take_sample(reduction, fault);
+    if (!status)
+        status = estimate_adding(reduction, fault);
+    if (status)
+        return status;
+    double share = modes_share(reduction);
+    progress_stage(&reduction->progress, "factor", 0.0, share);
+    *shift = BELOW_FIRST * body->omega[0] * body->omega[0];
+    status = factor_compute(reduction->factor, *shift, fault);
+    progress_stage(&reduction->progress, "flexibility at the sites", share, 1.0 - share);
+    return status;
+}
+
+enum percuss_status reduction_add_sites(struct options *options, struct reduction *reduction,
+                                        struct fault *fault)
+{
+    double shift = 0.0;
+    *reduction =
+        (struct reduction){.options = options, .progress = progress_begin(options->progress)};
+    progress_stage(&reduction->progress, "reading", 0.0, 0.0);
+    enum percuss_status status = read_later_body(reduction, options, fault);
+    if (!status)
+        status = read_body(reduction, fault);
+    double begun = progress_seconds(&reduction->progress);
+    if (!status)
+        status = factor_again(reduction, &shift, fault);
+    reduction->modes_seconds = progress_seconds(&reduction->progress) - begun;
+    begun = progress_seconds(&reduction->progress);
+    if (!status)
+        status = add_sites(reduction, shift, fault);
+    reduction->sites_seconds = progress_seconds(&reduction->progress) - begun;
+    progress_clear(&reduction->progress);
     reduction->seconds = progress_seconds(&reduction->progress);
     return status;
 }

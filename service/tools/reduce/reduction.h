@@ -38,6 +38,8 @@ struct reduction {
     /* results */
     struct mesh_body *body;
     struct sites_report sites;
+    struct site_alone alone[OPTIONS_MOST]; /* those asked for, where others are solved for later */
+    size_t added;                          /* of these: new in the body's file */
     double modes_seconds, sites_seconds, seconds;
 };
 
@@ -46,6 +48,12 @@ struct reduction {
  * mesh or the options; PERCUSS_INTERNAL without memory. */
 enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
                                   struct fault *fault);
+
+/* Solves for the flexibility at the sites asked for and adds them to options->add_to; the other
+ * options are taken from that file. reduction_free afterwards in any case. Errors as above, and a
+ * mesh that is not the one that the body was made of. */
+enum percuss_status reduction_add_sites(struct options *options, struct reduction *reduction,
+                                        struct fault *fault);
 
 void reduction_free(struct reduction *reduction);
 

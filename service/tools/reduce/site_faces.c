@@ -127,7 +127,7 @@ static const double SITE_WEIGHT = 10.0;
 /* Points each way at which a face is looked at. */
 enum { FACE_GRID = 6 };
 
-static double mean_curvature(const struct surface_point *point)
+double site_faces_curvature(const struct surface_point *point)
 {
     return 0.5 * (point->curvature[0] + point->curvature[4] + point->curvature[8]);
 }
@@ -351,7 +351,7 @@ static void fill_body_face(const struct group *group, size_t face, struct mesh_b
     const struct material *material = &group->rule->mesh->part[f->part].material;
     for (size_t n = 0; n < f->count; n++) {
         const struct surface_point *point = &group->rule->surface->points[face][n];
-        double curvature = mean_curvature(point), *known = group->known[f->nodes[n]];
+        double curvature = site_faces_curvature(point), *known = group->known[f->nodes[n]];
         double *tensor = known + 1;
         result->flexibility[n] = known[0];
         mesh_body_set_normal(point->normal, known[0], tensor);

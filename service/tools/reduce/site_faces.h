@@ -19,6 +19,9 @@ enum percuss_status site_faces_fill(const struct site_field *field, const struct
  * faces near sharp edges. */
 size_t site_faces_points(const struct site_field *field, const struct surface_rule *rule);
 
+/* Half the trace of a curvature. */
+double site_faces_curvature(const struct surface_point *point);
+
 /* Makes all flexibilities of a face NAN where its interpolation at a place differs from the solved
  * value by more than the allowed error near an edge, where near an edge it would give a contact a
  * negative compliance, and on walls that are too thin (flexibility_place_thin). The faces are

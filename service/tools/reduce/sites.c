@@ -234,6 +234,21 @@ static void curvature_at(const struct surface *surface, const struct flexibility
             curvature[k] += shape[n] * surface->points[place->face][n].curvature[k];
 }
 
+/* the places nearest to the points asked for; NULL: no memory */
+static struct flexibility_place *exact_places(const struct sites *sites)
+{
+    const struct sites_task *task = sites->task;
+    struct flexibility_place *places = malloc((task->exact_count + 1) * sizeof *places);
+    for (size_t i = 0; places && i < task->exact_count; i++) {
+        struct surface_place at = surface_near(task->body.mesh, task->body.surface, task->exact[i]);
+        places[i] = flexibility_place_make(flexibility_rule(sites->flexibility),
+                                           flexibility_edges(sites->flexibility), at.face,
+                                           at.foot.u, at.foot.v);
+        places[i].loads = FLEXIBILITY_LOADS;
+    }
+    return places;
+}
+
 /* sites that were asked for, and others between */
 static enum percuss_status choose_sites(struct sites *sites, double *spacing, struct fault *fault)
 {
@@ -241,13 +256,8 @@ static enum percuss_status choose_sites(struct sites *sites, double *spacing, st
     const struct flexibility_body *body = &task->body;
     const struct surface_rule *rule = flexibility_rule(sites->flexibility);
     const struct flexibility_edges *edges = flexibility_edges(sites->flexibility);
-    struct flexibility_place *wanted = malloc((task->exact_count + 1) * sizeof *wanted);
-    /* the places nearest to the points asked for */
+    struct flexibility_place *wanted = exact_places(sites);
     if (wanted) {
-        for (size_t i = 0; i < task->exact_count; i++) {
-            struct surface_place at = surface_near(body->mesh, body->surface, task->exact[i]);
-            wanted[i] = flexibility_place_make(rule, edges, at.face, at.foot.u, at.foot.v);
-        }
         /* others between, at that spacing */
         struct site_choice choice = {task->spacing > 0.0 ? task->spacing
                                                          : SPACING * body->surface->size,
@@ -668,4 +678,131 @@ done:
     site_field_free(&field);
     sites_free(&sites);
     return status;
+}
+
+/* ---- sites by themselves ---- */
+
+/* Of an element: nearer to an edge a solution is off by more than answers allow for there
+ * (NEAR_MESH_EDGE of solve/error). */
+static const double EDGE_KNOWN = 0.1;
+/* A contact's own compliance, Hertz's pressure on a half-space, is 3/5 (1 - nu^2) / (E radius). */
+static const double HERTZ_MEAN = 0.6;
+
+/* Takes the first `removed` modes out of a flexibility between all directions, and of that along
+ * `inward`: those that a reader of the body adds again, single precision included. */
+static void remove_modes(const struct mesh_body *body, const struct flexibility_place *place,
+                         double *value, double tensor[6])
+{
+    static const int ROW[6] = {0, 1, 2, 0, 1, 2}, COLUMN[6] = {0, 1, 2, 1, 2, 0};
+    const struct mesh_body_face *face = &body->faces[place->face];
+    double shape[FACE_MOST_NODES];
+    facet_shape(face->count, place->u, place->v, shape, NULL, NULL);
+    for (size_t mode = 0; mode < body->removed; mode++) {
+        double moved[3] = {0.0}, along;
+        for (int n = 0; n < face->count; n++)
+            for (size_t k = 0; k < 3; k++)
+                moved[k] +=
+                    shape[n] *
+                    (double)body->shapes[(3 * face->nodes[n] + k) * body->mode_count + mode];
+        scale3(1.0 / body->omega[mode], moved, moved);
+        along = dot3(moved, place->load.inward);
+        *value -= along * along;
+        for (int k = 0; k < 6; k++)
+            tensor[k] -= moved[ROW[k]] * moved[COLUMN[k]];
+    }
+}
+
+/* Whether a contact as narrow as `cut` has a compliance in all directions. */
+static bool is_tensor_possible(const struct mesh_body *body, const struct mesh_body_site *site)
+{
+    struct mesh_body_face face = body->faces[site->face];
+    for (int k = 0; k < 6; k++)
+        face.tensor[0][k] = (float)site->tensor[k];
+    return mesh_body_tensor_possible(body, &face, 0);
+}
+
+/* The reason why the flexibility cannot be had at a place; NULL: it can. */
+static const char *why_unknown(const struct sites *sites, size_t i)
+{
+    static const char EDGE[] = "the mesh is too coarse so near to an edge";
+    const struct flexibility_place *place = &sites->places[i];
+    const struct boussinesq3 *load = &place->load;
+    if (flexibility_place_thin(place))
+        return "its wall is thinner than 0.4 of an element";
+    if (place->load.reach < LEAST_REACH * sites->task->body.surface->size)
+        return "the surface comes back over it within a third of an element";
+    if (flexibility_place_massive(place, sites->task->body.mesh))
+        return "a mass stands on a node within an element";
+    if (place->edge < EDGE_KNOWN * place->element)
+        return EDGE;
+    if (isnan(sites->values[i]))
+        return "the mesh's forces do not balance there";
+    /* half the distance from an edge is the widest contact */
+    double own =
+        HERTZ_MEAN * (1.0 - load->poisson * load->poisson) / (load->young * 0.5 * place->edge);
+    bool near = place->edge < sites->task->body.surface->size;
+    return near && sites->values[i] < -own ? EDGE : NULL;
+}
+
+static void tell_alone(const struct sites *sites, const struct mesh_body *body, size_t i,
+                       struct site_alone *alone)
+{
+    const struct sites_task *task = sites->task;
+    const struct flexibility_place *place = &sites->places[i];
+    struct mesh_body_site *site = &alone->site;
+    struct surface_place foot = surface_near(task->body.mesh, task->body.surface, task->exact[i]);
+    double apart[3];
+    sub3(place->load.point, foot.foot.point, apart);
+    alone->aside = norm3(apart);
+    site->face = (unsigned)foot.face;
+    sub3(foot.foot.point, body->centre, site->point);
+    site->flexibility = sites->values[i];
+    memcpy(site->tensor, sites->tensors[i], sizeof site->tensor);
+    remove_modes(body, place, &site->flexibility, site->tensor);
+    sites->values[i] = site->flexibility;
+    alone->unknown = why_unknown(sites, i);
+    bool tensor = !alone->unknown && is_tensor_possible(body, site);
+    if (alone->unknown)
+        site->flexibility = NAN;
+    for (int k = 0; k < 6 && !tensor; k++)
+        site->tensor[k] = NAN;
+}
+
+enum percuss_status sites_solve_alone(const struct sites_task *task, const struct mesh_body *body,
+                                      struct site_alone *alone, struct fault *fault)
+{
+    struct sites sites = {.task = task, .count = task->exact_count, .cut = body->cut};
+    struct sites_report report = {0};
+    enum percuss_status status = PERCUSS_OK;
+    sites.flexibility = flexibility_make(&task->body);
+    sites.places = sites.flexibility ? exact_places(&sites) : NULL;
+    sites.values = malloc((sites.count + 1) * sizeof *sites.values);
+    sites.tensors = malloc((sites.count + 1) * sizeof *sites.tensors);
+    if (!sites.places || !sites.values || !sites.tensors)
+        status = pace_fault(fault, PERCUSS_INTERNAL);
+    if (!status)
+        status = solve_sites(&sites, &report, fault);
+    for (size_t i = 0; !status && i < sites.count; i++)
+        tell_alone(&sites, body, i, &alone[i]);
+    sites_free(&sites);
+    return status;
+}
+
+void sites_leave(const struct flexibility_body *from, size_t removed, struct mesh_body *body)
+{
+    body->cut = CUT * from->surface->size;
+    body->removed = removed;
+    body->all_ways = true;
+    for (size_t f = 0; f < body->face_count; f++) {
+        struct mesh_body_face *face = &body->faces[f];
+        const struct material *material = &from->mesh->part[from->surface->faces[f].part].material;
+        for (int n = 0; n < face->count; n++) {
+            face->flexibility[n] = NAN;
+            face->flexibility_slope[n] =
+                flexibility_slope(material->young, material->poisson,
+                                  site_faces_curvature(&from->surface->points[f][n]));
+            for (int k = 0; k < 6; k++)
+                face->tensor[n][k] = NAN;
+        }
+    }
 }

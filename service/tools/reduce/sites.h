@@ -63,4 +63,22 @@ enum percuss_status sites_sample(const struct sites_task *task, struct sites_sam
 enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *body,
                                struct sites_report *report, struct fault *fault);
 
+/* A site that was solved for by itself. */
+struct site_alone {
+    struct mesh_body_site site; /* point: the surface's nearest to the one asked for */
+    double aside;               /* the place that was solved for is so far from there, off the rim
+                                 * of its face on curved ground, m */
+    const char *unknown;        /* the reason why the mesh cannot say it; NULL: it is known */
+};
+
+/* The flexibility at the task's exact places alone, one for each, without the first `removed` modes
+ * of `body`, whose own shapes are taken for them: the task's body needs a factor and rigid motions,
+ * but no modes. Errors as below. */
+enum percuss_status sites_solve_alone(const struct sites_task *task, const struct mesh_body *body,
+                                      struct site_alone *alone, struct fault *fault);
+
+/* Makes `body` one whose flexibility is solved for later: it is unknown on all faces, and goes
+ * without the first `removed` modes. Its faces are those of the surface in their order. */
+void sites_leave(const struct flexibility_body *from, size_t removed, struct mesh_body *body);
+
 #endif

@@ -43,6 +43,56 @@ expect 0 reduce $steel --modes 12 --json
 expect 0 reduce $steel --modes 12 --json --site 20,7.5,10
 [ "$(field hash)" != "$first" ] || fail "the same hash with a site"
 
+say "its flexibility later: the sites that are asked for, as those made ahead"
+later() { # later ARGUMENT...: of the block at its site
+    "$bin/percuss-reduce" --add-sites "$work/later.h5" "$@"
+}
+asks() { # asks BODY ARGUMENT...: at the site
+    b=$1
+    shift
+    "$bin/percuss" query --local --catalogue "$work/later.yaml" --a ball --b "$b" --at-b top --speed 0.3 "$@"
+}
+cat >"$work/later.yaml" <<YAML
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.006}
+  ahead: {shape: mesh, file: block.h5, sites: {top: {point: [20, 7.5, 10]}}}
+  later: {shape: mesh, file: later.h5, sites: {top: {point: [20, 7.5, 10]}}}
+YAML
+expect 0 reduce $steel --modes 12 --flexibility later -o "$work/later.h5"
+[ ! -e "$work/later.h5.sites" ] || fail "sites that nobody asked for"
+expect 5 asks later
+says "its flexibility there is not solved for yet: percuss-reduce --add-sites '$work/later.h5' --site 20,7.5,10 solves it"
+mv "$work/block.inp" "$work/elsewhere.inp"
+expect 1 later --site 33,4mm,10
+says "block.inp: No such file"
+block 8 2 3 >"$work/block.inp"
+expect 1 later --site 33,4mm,10
+says "block.inp: is not the mesh that $work/later.h5 was made of"
+[ ! -e "$work/later.h5.sites" ] || fail "sites of another mesh"
+expect 0 later --site 33,4mm,10 --site 20,7.5,10 --site 20,0.1,10 "$work/elsewhere.inp"
+mv "$work/elsewhere.inp" "$work/block.inp"
+says "warning: --site: 20,0.1,10: its flexibility is not known: the mesh is too coarse so near to an edge"
+shows "later.h5: 3 sites added, 3 in all"
+expect 0 later --site 20.1,7.5,10 --json
+[ "$(field sites_added)" -eq 0 ] || fail "$(field sites_added) sites added within reach of another"
+expect 0 asks later --json
+cp "$out" "$work/later.json"
+expect 0 asks ahead --json
+# what a face's shape functions leave of the site's own
+awk -v a="$(field restitution)" -v b="$(sed -n 's/.*"restitution": \([0-9.e-]*\),.*/\1/p' "$work/later.json" | head -n 1)" \
+    'BEGIN { exit !(b > 0 && (a - b) ^ 2 < 1e-10) }' || fail "another answer than ahead"
+expect 1 "$bin/percuss-reduce" --add-sites "$work/block.h5" --site 20,7.5,10
+says "block.h5: was not made with --flexibility later"
+if [ "$(id -u)" = 0 ]; then
+    mkdir "$work/kept" && cp "$work/later.h5" "$bin/percuss-reduce" "$work/kept"
+    chmod 711 "$work"
+    expect 1 setpriv --reuid=65534 --regid=65534 --clear-groups "$work/kept/percuss-reduce" \
+        --add-sites "$work/kept/later.h5" --site 20,7.5,10
+    says "kept/later.h5.sites: cannot be written: Permission denied"
+fi
+
 say "two materials by name, held at one end, all modes below a frequency"
 cat >"$work/catalogue.yaml" <<YAML
 materials:
@@ -137,6 +187,13 @@ expect 2 reduce $steel --modes 5 --max-frequency 100
 expect 1 "$bin/percuss-reduce" "$work/block.inp" --unit mm $steel -o "$work/nowhere/block.h5"
 says "nowhere/block.h5: cannot be written"
 expect 2 reduce $steel --unit furlong
+expect 2 reduce $steel --flexibility never
+expect 2 later
+says "--add-sites: needs --site X,Y,Z"
+expect 2 later --site 1,2,3 --unit mm
+says "must be given with --site, FILE, --json and --progress alone"
+expect 1 later --site 1,2
+says "--site: 1,2: must be three numbers"
 expect 2 reduce $steel --stiffness "$work/ccx.sti"
 expect 2 reduce $steel --site 1,2
 expect 2 "$bin/percuss-reduce" "$work/block.inp" $steel

@@ -1,17 +1,25 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* mesh/body_file: a body as it was written, and files that are none. */
+/* mesh/body_file, mesh/sites_file: a body as it was written, and files that are none; sites that
+ * are added to it. */
 #include "mesh/body_file.h"
 
 #include <hdf5.h>
+#include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "bodies/made_mesh.h"
 #include "check.h"
+#include "mesh/sites_file.h"
+#include "model/facet.h"
 #include "model/mesh_surface.h"
+#include "model/vector.h"
 
 static struct body make_rod(void)
 {
@@ -341,13 +349,214 @@ static void follows_no_link(void **state)
     mesh_body_free(body);
 }
 
+/* ---- sites that are added beside it ---- */
+
+/* Writes a body whose sites are solved for later. */
+static struct mesh_body *write_later(const char *path)
+{
+    struct mesh_body *body = make_body();
+    struct fault fault = {""};
+    char sites[80];
+    snprintf(sites, sizeof sites, "%s.sites", path);
+    remove(sites);
+    body->origin.mesh = strdup("/somewhere/rod.inp");
+    body->origin.options = strdup("unit=0.001\nfixed=foot\n");
+    strcpy(body->origin.hash, "abc");
+    for (size_t f = 0; f < body->face_count; f++)
+        for (int i = 0; i < MESH_BODY_FACE_NODES; i++)
+            body->faces[f].flexibility[i] = NAN;
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    mesh_body_free(body);
+    body = read_back(path);
+    assert_true(mesh_surface_prepare(body));
+    return body;
+}
+
+/* A site in the middle of a face, with numbers that need all digits. */
+static struct mesh_body_site site_on(const struct mesh_body *body, unsigned face, double value)
+{
+    struct mesh_body_site site = {.face = face, .flexibility = value};
+    const struct mesh_body_face *at = &body->faces[face];
+    double shape[FACET_MOST_NODES];
+    facet_shape(at->count, at->count == 6 ? 1.0 / 3.0 : 0.0, at->count == 6 ? 1.0 / 3.0 : 0.0,
+                shape, NULL, NULL);
+    for (int i = 0; i < at->count; i++)
+        add_scaled3(shape[i], body->points[at->nodes[i]], site.point);
+    for (int k = 0; k < 6; k++)
+        site.tensor[k] = isnan(value) ? NAN : value / (3.0 + k);
+    return site;
+}
+
+static void add_site(struct mesh_body *body, unsigned face, double value, size_t expected)
+{
+    struct fault fault = {""};
+    struct mesh_body_site site = site_on(body, face, value);
+    size_t added;
+    if (sites_file_add(body, 1, &site, &added, &fault))
+        fail_msg("%s", fault.text);
+    assert_int_equal(added, expected);
+}
+
+static struct mesh_spot spot_on(const struct mesh_body *body, unsigned face)
+{
+    bool three = body->faces[face].count == 6;
+    return mesh_surface_at(body, face, three ? 1.0 / 3.0 : 0.0, three ? 1.0 / 3.0 : 0.0);
+}
+
+static void remove_later(struct mesh_body *body, const char *path)
+{
+    char sites[80];
+    snprintf(sites, sizeof sites, "%s.sites", path);
+    remove(sites);
+    remove(path);
+    mesh_body_free(body);
+}
+
+static void sites_are_added_beside_it(void **state)
+{
+    (void)state;
+    char path[64];
+    name_file(path);
+    struct mesh_body *body = write_later(path);
+    assert_string_equal(body->origin.mesh, "/somewhere/rod.inp");
+    assert_string_equal(body->origin.options, "unit=0.001\nfixed=foot\n");
+    assert_string_equal(body->origin.hash, "abc");
+    assert_true(spot_on(body, 5).unsolved);
+    /* one of them is known not to be known; an earlier one stays */
+    add_site(body, 5, 1e-9 / 3.0, 1);
+    add_site(body, 9, NAN, 1);
+    add_site(body, 5, 2e-9, 0);
+    struct mesh_body *other = read_back(path);
+    assert_true(mesh_surface_prepare(other));
+    assert_int_equal(other->added_count, 2);
+    assert_memory_equal(other->added, body->added, 2 * sizeof *body->added);
+    struct mesh_spot spot = spot_on(other, 5);
+    assert_true(!spot.unsolved && spot.flexibility == 1e-9 / 3.0);
+    spot = spot_on(other, 9);
+    assert_true(!spot.unsolved && isnan(spot.flexibility));
+    assert_true(spot_on(other, 6).unsolved);
+    mesh_body_free(other);
+    /* those of another body of that name count no more, nor where it takes out other modes, and go
+     * with the next that is added */
+    struct fault fault = {""};
+    body->removed--;
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    other = read_back(path);
+    assert_int_equal(other->added_count, 0);
+    mesh_body_free(other);
+    body->removed++;
+    strcpy(body->hash, "other");
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    other = read_back(path);
+    assert_int_equal(other->added_count, 0);
+    assert_true(mesh_surface_prepare(other));
+    add_site(other, 7, 1e-9, 1);
+    assert_int_equal(other->added_count, 1);
+    mesh_body_free(other);
+    remove_later(body, path);
+}
+
+/* Two processes add at once, one of them is killed: all that was added stays, and whoever reads
+ * meanwhile reads a whole file. */
+static void processes_add_sites_at_once(void **state)
+{
+    (void)state;
+    enum { EACH = 12, READ = 60 };
+    char path[64];
+    name_file(path);
+    struct mesh_body *body = write_later(path);
+    pid_t adds[2], killed;
+    for (unsigned p = 0; p < 2; p++) {
+        adds[p] = fork();
+        if (adds[p] == 0) {
+            for (unsigned i = 0; i < EACH; i++)
+                add_site(body, 2 * i + p, 1e-9, 1);
+            _exit(0);
+        }
+    }
+    /* and one that adds for ever */
+    killed = fork();
+    if (killed == 0)
+        for (unsigned face = 2 * EACH;; face = face + 1 < body->face_count ? face + 1 : 2 * EACH) {
+            struct fault fault;
+            struct mesh_body_site site = site_on(body, face, 1e-9);
+            size_t added;
+            sites_file_add(body, 1, &site, &added, &fault);
+        }
+    for (int i = 0; i < READ; i++)
+        mesh_body_free(read_back(path));
+    kill(killed, SIGKILL);
+    int status;
+    assert_int_equal(waitpid(killed, &status, 0), killed);
+    for (int p = 0; p < 2; p++) {
+        assert_int_equal(waitpid(adds[p], &status, 0), adds[p]);
+        assert_int_equal(status, 0);
+    }
+    struct mesh_body *other = read_back(path);
+    assert_true(mesh_surface_prepare(other));
+    for (unsigned face = 0; face < 2 * EACH; face++)
+        assert_false(spot_on(other, face).unsolved);
+    mesh_body_free(other);
+    remove_later(body, path);
+}
+
+static void damaged_sites_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *words;
+    } cases[] = {
+        {"percuss sites 2\n", ".sites:1: must be"},
+        {"percuss sites 1\n", ".sites:2: must be"},
+        {"", ".sites:3: must be \"end COUNT\""},
+        {"site 5 0 0 0 1e-9 0 0 0 0 0 0\nend 2\n", ".sites:4: must be"},
+        {"site 5 0 0 0 1e-9 0 0 0 0 0\nend 1\n", ".sites:3: must be"},
+        {"site 99999 0 0 0 1e-9 0 0 0 0 0 0\nend 1\n", ".sites:3: must"},
+        {"site 5 0 nan 0 1e-9 0 0 0 0 0 0\nend 1\n", ".sites:3: must"},
+    };
+    char path[64], sites[80];
+    name_file(path);
+    snprintf(sites, sizeof sites, "%s.sites", path);
+    struct mesh_body *body = write_later(path), *other;
+    struct fault fault = {""};
+    size_t added;
+    strcpy(body->hash, "made");
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        FILE *file = fopen(sites, "w");
+        assert_non_null(file);
+        /* those after the body's line */
+        if (cases[i].text[0] != 'p')
+            fprintf(file, "percuss sites 1\nbody made %zu %.17g\n", body->removed, body->cut);
+        fputs(cases[i].text, file);
+        fclose(file);
+        assert_int_equal(body_file_read(path, &other, &fault), PERCUSS_BAD_REQUEST);
+        if (!strstr(fault.text, cases[i].words))
+            fail_msg("case %zu: %s", i, fault.text);
+    }
+    /* where it cannot be written: a folder has its name */
+    remove(sites);
+    assert_int_equal(mkdir(sites, 0700), 0);
+    struct mesh_body_site site = site_on(body, 5, 1e-9);
+    assert_int_equal(sites_file_add(body, 1, &site, &added, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, ".sites: cannot be written: "));
+    rmdir(sites);
+    remove_later(body, path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back_as_written),         cmocka_unit_test(refuses_wrong_numbers),
-        cmocka_unit_test(refuses_files_that_are_none),   cmocka_unit_test(bears_any_damage),
-        cmocka_unit_test(says_where_it_cannot_write),    cmocka_unit_test(follows_no_link),
+        cmocka_unit_test(comes_back_as_written),
+        cmocka_unit_test(refuses_wrong_numbers),
+        cmocka_unit_test(refuses_files_that_are_none),
+        cmocka_unit_test(bears_any_damage),
+        cmocka_unit_test(says_where_it_cannot_write),
+        cmocka_unit_test(follows_no_link),
         cmocka_unit_test(refuses_more_than_it_can_hold),
+        cmocka_unit_test(sites_are_added_beside_it),
+        cmocka_unit_test(processes_add_sites_at_once),
+        cmocka_unit_test(damaged_sites_are_refused),
     };
     /* damaged files leave what the library complains of at its end */
     H5dont_atexit();
