@@ -57,20 +57,22 @@ static double cache_days_of(const char *name, const struct body_set *set, double
     if (strspn(name, "0123456789abcdef") != NAME_LENGTH || name[NAME_LENGTH] != '.')
         return -1.0;
     const char *suffix = name + NAME_LENGTH + 1;
-    bool result =
-        strcmp(suffix, "h5") == 0 || strcmp(suffix, "failed") == 0 || strcmp(suffix, "killed") == 0;
-    if (result)
-        return cache_find_order(set, name) ? -1.0 : days;
+    static const char *const results[] = {"h5", "h5.sites", "h5.sites.part", "failed", "killed"};
+    for (size_t i = 0; i < sizeof results / sizeof *results; i++)
+        if (strcmp(suffix, results[i]) == 0)
+            return cache_find_order(set, name) ? -1.0 : days;
     return cache_is_orphan(suffix) ? LEFT_BEHIND_DAYS : -1.0;
 }
 
 static void cache_mark(int folder, const struct body_set *set)
 {
     for (size_t i = 0; i < set->order_count; i++) {
-        char name[NAME_LENGTH + 4];
-        snprintf(name, sizeof name, "%.64s.h5", set->orders[i].name);
-        if (set->orders[i].made)
+        static const char *const suffixes[] = {"h5", "h5.sites"};
+        for (size_t k = 0; set->orders[i].made && k < sizeof suffixes / sizeof *suffixes; k++) {
+            char name[NAME_LENGTH + 16];
+            snprintf(name, sizeof name, "%.64s.%s", set->orders[i].name, suffixes[k]);
             utimensat(folder, name, NULL, 0);
+        }
     }
 }
 
@@ -260,6 +262,43 @@ static int reducer_spawn(struct reducer *reducer, char **arguments)
     return error;
 }
 
+/* What the child does, for those who wait for it. */
+static const char *reducer_work(const struct reducer *reducer)
+{
+    return reducer->adding ? "its flexibility there is being solved for"
+                           : "its mesh is being reduced";
+}
+
+/* Runs percuss-reduce for the order with these arguments, unless an error's number says why not. */
+static void reducer_run(struct reducer *reducer, const struct body_set *set,
+                        const struct body_order *order, char **arguments, int error)
+{
+    reducer->done = 0.0;
+    if (!error)
+        error = reducer_spawn(reducer, arguments);
+    if (!error) {
+        log_line(LEVEL_INFO, "%s: %s%s %s by process %d, its messages in %s", order->id,
+                 reducer->adding ? "flexibility of " : "", order->mesh,
+                 reducer->adding ? "is being solved for" : "is being reduced", (int)reducer->child,
+                 reducer->files[MESSAGES]);
+        reducer_tell(reducer, set, PERCUSS_BUSY, "%s: ask again later", reducer_work(reducer));
+        return;
+    }
+    reducer_halt(reducer, "percuss-reduce or %.300s: %s", reducer->folder, strerror(error));
+    log_line(LEVEL_ERROR, "%s: %s cannot be reduced: %s; SIGHUP tries again", order->id,
+             order->mesh, reducer->halted);
+    reducer_drop_files(reducer);
+}
+
+/* Names the child's order and its files: 0, or an error's number. */
+static int reducer_prepare(struct reducer *reducer, const struct body_order *order, bool adding)
+{
+    reducer->adding = adding;
+    snprintf(reducer->id, sizeof reducer->id, "%s", order->id);
+    snprintf(reducer->name, sizeof reducer->name, "%s", order->name);
+    return reducer_name_files(reducer) ? 0 : ENOMEM;
+}
+
 static void reducer_start(struct reducer *reducer, const struct body_set *set,
                           const struct body_order *order)
 {
@@ -267,10 +306,7 @@ static void reducer_start(struct reducer *reducer, const struct body_set *set,
     char output[] = "-o", catalogue[] = "-C", files[] = "--";
     char *arguments[BODY_ORDER_ARGUMENTS + 9] = {name, progress};
     size_t count = 2;
-    snprintf(reducer->id, sizeof reducer->id, "%s", order->id);
-    snprintf(reducer->name, sizeof reducer->name, "%s", order->name);
-    reducer->done = 0.0;
-    int error = reducer_name_files(reducer) ? 0 : ENOMEM;
+    int error = reducer_prepare(reducer, order, false);
     /* the order's options, and the files */
     for (size_t i = 0; i < order->argument_count; i++)
         arguments[count++] = order->arguments[i];
@@ -284,18 +320,29 @@ static void reducer_start(struct reducer *reducer, const struct body_set *set,
     }
     arguments[count++] = files;
     arguments[count++] = order->mesh;
-    if (!error)
-        error = reducer_spawn(reducer, arguments);
-    if (!error) {
-        log_line(LEVEL_INFO, "%s: %s is being reduced by process %d, its messages in %s", order->id,
-                 order->mesh, (int)reducer->child, reducer->files[MESSAGES]);
-        reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
-        return;
+    reducer_run(reducer, set, order, arguments, error);
+}
+
+/* Has the places that requests wait for added to the order's body, which is there. */
+static void reducer_start_adding(struct reducer *reducer, const struct body_set *set,
+                                 const struct body_order *order, size_t place_count,
+                                 double places[][3])
+{
+    char name[] = "percuss-reduce", progress[] = "--progress=1";
+    char add[] = "--add-sites", files[] = "--", sites[BODY_ORDER_PLACES][96];
+    char *body = result_path(reducer, order->name, ".h5");
+    char *arguments[BODY_ORDER_PLACES + 8] = {name, progress, add, body};
+    size_t count = 4;
+    int error = reducer_prepare(reducer, order, true);
+    for (size_t i = 0; i < place_count; i++) {
+        snprintf(sites[i], sizeof sites[i], "--site=%.17g,%.17g,%.17g", places[i][0], places[i][1],
+                 places[i][2]);
+        arguments[count++] = sites[i];
     }
-    reducer_halt(reducer, "percuss-reduce or %.300s: %s", reducer->folder, strerror(error));
-    log_line(LEVEL_ERROR, "%s: %s cannot be reduced: %s; SIGHUP tries again", order->id,
-             order->mesh, reducer->halted);
-    reducer_drop_files(reducer);
+    arguments[count++] = files;
+    arguments[count++] = order->mesh;
+    reducer_run(reducer, set, order, arguments, body ? error : ENOMEM);
+    free(body);
 }
 
 /* Reads the child's progress: its last line, "percuss-reduce:  43.2 %  modes, 12 s left". */
@@ -319,11 +366,10 @@ static void reducer_follow(struct reducer *reducer, const struct body_set *set)
         }
     }
     if (stage[0])
-        reducer_tell(reducer, set, PERCUSS_BUSY,
-                     "its mesh is being reduced, %.0f %% (%s): ask again later",
-                     100.0 * reducer->done, stage);
+        reducer_tell(reducer, set, PERCUSS_BUSY, "%s, %.0f %% (%s): ask again later",
+                     reducer_work(reducer), 100.0 * reducer->done, stage);
     else
-        reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
+        reducer_tell(reducer, set, PERCUSS_BUSY, "%s: ask again later", reducer_work(reducer));
 }
 
 /* The last line of the child's messages. */
@@ -342,6 +388,36 @@ static void reducer_last_message(const char *path, char text[400])
     fclose(file);
 }
 
+/* The reason why the child failed. */
+static void reducer_reason(const struct reducer *reducer, int status, char reason[400])
+{
+    if (WIFSIGNALED(status))
+        snprintf(reason, 400, "percuss-reduce was ended by signal %d", WTERMSIG(status));
+    else
+        reducer_last_message(reducer->files[MESSAGES], reason);
+}
+
+/* The child has added sites to the body's file itself, or failed: true where the catalogue is to be
+ * loaded again. Requests have the reason of a failure until then. */
+static bool reducer_conclude_adding(struct reducer *reducer, const struct body_set *set, int status)
+{
+    char reason[400];
+    bool made = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (made) {
+        log_line(LEVEL_INFO, "%s: sites added", reducer->id);
+        reducer_tell(reducer, set, PERCUSS_BUSY,
+                     "its flexibility there is solved for and being loaded: ask again");
+    } else {
+        reducer_reason(reducer, status, reason);
+        log_line(LEVEL_ERROR, "%s: sites could not be added: %s; SIGHUP tries again", reducer->id,
+                 reason);
+        reducer_tell(reducer, set, PERCUSS_UNSUPPORTED_GEOMETRY,
+                     "its flexibility there could not be solved for: %s", reason);
+    }
+    reducer_drop_files(reducer);
+    return made;
+}
+
 /* Puts the child's body, or the reason of its failure, where the catalogue finds it. */
 static void reducer_conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
@@ -356,11 +432,7 @@ static void reducer_conclude(struct reducer *reducer, const struct body_set *set
         noted = path && !atomic_file_rename(reducer->files[BODY], path, NULL);
         reducer_tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
-        if (WIFSIGNALED(status))
-            snprintf(reason, sizeof reason, "percuss-reduce was ended by signal %d",
-                     WTERMSIG(status));
-        else
-            reducer_last_message(reducer->files[MESSAGES], reason);
+        reducer_reason(reducer, status, reason);
         log_line(LEVEL_ERROR, "%s: could not be reduced: %s", reducer->id, reason);
         noted = path && reducer_write_text(path, reason);
         reducer_tell(reducer, set, PERCUSS_UNKNOWN_BODY, "its mesh could not be reduced: %s",
@@ -405,6 +477,30 @@ static bool reducer_order_is_open(const struct reducer *reducer, const struct bo
     return open;
 }
 
+/* Has the places that are wanted of a body solved for; the named sites of one that has none yet all
+ * together. After a failure nothing more is tried. */
+static void reducer_look_for_places(struct reducer *reducer, const struct body_set *set,
+                                    const struct body_order *order)
+{
+    double places[BODY_ORDER_PLACES][3];
+    const struct body *body = body_set_find(set, order->id);
+    if (!order->made || !order->later || !body || !body->mesh ||
+        body_order_news(order).status != PERCUSS_BUSY)
+        return;
+    if (body->mesh->added_count == 0)
+        body_order_want_sites(order, body);
+    size_t count = body_order_take(order, places);
+    if (count == 0)
+        return;
+    if (!reducer->halted[0])
+        reducer_start_adding(reducer, set, order, count, places);
+    if (!reducer->child)
+        body_order_tell(order, PERCUSS_UNSUPPORTED_GEOMETRY,
+                        "its flexibility there cannot be solved for: %s; the server's log says "
+                        "more",
+                        reducer->halted);
+}
+
 bool reducer_look(struct reducer *reducer, const struct body_set *set)
 {
     int status;
@@ -416,11 +512,16 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
             return false;
         }
         reducer->child = 0;
+        if (reducer->adding)
+            return reducer_conclude_adding(reducer, set, status);
         reducer_conclude(reducer, set, status);
         return true;
     }
+    /* sites, for which requests wait */
+    for (size_t i = 0; !reducer->child && i < set->order_count; i++)
+        reducer_look_for_places(reducer, set, &set->orders[i]);
     /* or the next one */
-    for (size_t i = 0; i < set->order_count; i++) {
+    for (size_t i = 0; !reducer->child && i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
         if (!reducer_order_is_open(reducer, order))
             continue;

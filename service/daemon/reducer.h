@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Bodies that the daemon reduces from meshes: it runs percuss-reduce for those that a catalogue
- * orders, one at a time, while it answers requests, and keeps the folder of the reduced bodies,
+ * orders, and for places of theirs whose flexibility requests need, one at a time, while it answers
+ * requests, and keeps the folder of the reduced bodies,
  * which daemons with different catalogues may share. Of the main thread. */
 #ifndef PERCUSS_DAEMON_REDUCER_H
 #define PERCUSS_DAEMON_REDUCER_H
@@ -19,6 +20,7 @@ struct reducer {
     const char *folder; /* borrowed; empty: nothing is reduced */
     pid_t child;        /* 0: none */
     char halted[400];   /* the reason why no child is started any more; empty: none */
+    bool adding;        /* the child adds sites to a body that is there */
     char id[PERCUSS_ID_SIZE], name[65];
     double done;                /* of the child: 0 .. 1 */
     char *files[REDUCER_FILES]; /* of the child: body, messages, material; NULL: none */

@@ -312,7 +312,8 @@ static void look_at_reducer(struct service *service)
     if (reducer_look(reducer, shared->snapshots.current->set))
         load_again(service);
     if (reducer->child)
-        activity_set(&shared->reduction, reducer, reducer->done, "reducing %s", reducer->id);
+        activity_set(&shared->reduction, reducer, reducer->done,
+                     reducer->adding ? "solving for sites of %s" : "reducing %s", reducer->id);
     else
         activity_clear(&shared->reduction, reducer);
 }

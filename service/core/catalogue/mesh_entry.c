@@ -109,17 +109,25 @@ static enum percuss_status read_raise(struct reader *reader, const yaml_node_t *
                                      : reader_refuse_value(reader, value, key->allowed);
 }
 
+static enum percuss_status read_flexibility(struct reader *reader, const yaml_node_t *value,
+                                            const struct key *key, struct body_order *order)
+{
+    order->later = reader_is(value, "later");
+    if (order->later)
+        return add_argument(reader, order, "--flexibility=later");
+    return reader_is(value, "ahead") ? PERCUSS_OK
+                                     : reader_refuse_value(reader, value, key->allowed);
+}
+
 /* Keys that stand beside a mesh alone. */
 struct option_key {
     const char *name;
     enum percuss_status (*read)(struct reader *reader, const yaml_node_t *value,
                                 const struct key *key, struct body_order *order);
 };
-static const struct option_key option_keys[] = {{"unit", read_unit},
-                                                {"max_frequency", read_frequency},
-                                                {"fixed", read_fixed},
-                                                {"instance", read_instance},
-                                                {"raise", read_raise}};
+static const struct option_key option_keys[] = {
+    {"unit", read_unit},         {"max_frequency", read_frequency}, {"fixed", read_fixed},
+    {"instance", read_instance}, {"flexibility", read_flexibility}, {"raise", read_raise}};
 enum { OPTION_KEYS = sizeof option_keys / sizeof *option_keys };
 
 /* Refuses keys that may only stand beside a mesh. */
@@ -261,6 +269,9 @@ static enum percuss_status mesh_order_read(struct reader *reader, struct entry e
         order.made = somewhere && access(reduced, F_OK) == 0;
         if (somewhere && !order.made)
             read_reason(reader->folder, &order);
+        if (order.made)
+            body_order_tell(&order, PERCUSS_BUSY,
+                            "its flexibility there waits to be solved for: ask again later");
         if (keep_order(set, &order)) {
             *path = order.made ? reduced : NULL;
             if (!order.made)

@@ -297,6 +297,8 @@ bool body_same_modes(const struct body *a, const struct body *b)
 struct body_board {
     atomic_flag taken; /* held while a thread copies the news */
     struct body_news news;
+    size_t wanted_count;
+    double wanted[BODY_ORDER_PLACES][3];
 };
 
 static void board_take(struct body_board *board)
@@ -339,6 +341,29 @@ struct body_news body_order_news(const struct body_order *order)
     struct body_news news = order->board->news;
     board_give_back(order->board);
     return news;
+}
+
+void body_order_want(const struct body_order *order, const double place[3])
+{
+    struct body_board *board = order->board;
+    board_take(board);
+    size_t i = 0;
+    while (i < board->wanted_count && memcmp(board->wanted[i], place, sizeof board->wanted[i]) != 0)
+        i++;
+    if (i == board->wanted_count && i < BODY_ORDER_PLACES)
+        memcpy(board->wanted[board->wanted_count++], place, sizeof board->wanted[i]);
+    board_give_back(board);
+}
+
+size_t body_order_take(const struct body_order *order, double places[BODY_ORDER_PLACES][3])
+{
+    struct body_board *board = order->board;
+    board_take(board);
+    size_t count = board->wanted_count;
+    memcpy(places, board->wanted, sizeof board->wanted);
+    board->wanted_count = 0;
+    board_give_back(board);
+    return count;
 }
 
 void body_order_clear(struct body_order *order)

@@ -138,7 +138,10 @@ const char *body_theory(const struct body *body);
 
 /* A body of the catalogue that is given as a mesh, or by a file that is missing, and the news of
  * its reduction. */
-enum { BODY_ORDER_SETS = 32, BODY_ORDER_ARGUMENTS = BODY_ORDER_SETS + 6, BODY_NEWS_SIZE = 480 };
+enum { BODY_ORDER_SETS = 32, BODY_ORDER_ARGUMENTS = BODY_ORDER_SETS + 7, BODY_NEWS_SIZE = 480 };
+
+/* Places of one order that wait at a time for their flexibility. */
+enum { BODY_ORDER_PLACES = 32 };
 
 /* The reply to a request for the body. */
 struct body_news {
@@ -152,6 +155,7 @@ struct body_order {
     char id[PERCUSS_ID_SIZE];
     char name[65]; /* name of the body's file: a hash of all that it is made from */
     bool made;     /* that file exists: the set has the body itself */
+    bool later;    /* its flexibility is solved for at places that requests hit */
     bool missing;  /* the catalogue names a reduced body's file, which does not exist: there is no
                       mesh */
     char *mesh;    /* path of the mesh */
@@ -168,6 +172,16 @@ bool body_order_begin(struct body_order *order);
 void body_order_tell(const struct body_order *order, enum percuss_status status, const char *format,
                      ...) __attribute__((format(printf, 3, 4)));
 struct body_news body_order_news(const struct body_order *order);
+
+/* Asks for the flexibility at a place of a made body, in the mesh's frame and unit; beyond
+ * BODY_ORDER_PLACES it is left for later. */
+void body_order_want(const struct body_order *order, const double place[3]);
+
+/* Asks for the flexibility at all named sites of the order's body that lack it. */
+void body_order_want_sites(const struct body_order *order, const struct body *body);
+
+/* Takes the places that are wanted, which are none afterwards; returns how many. */
+size_t body_order_take(const struct body_order *order, double places[BODY_ORDER_PLACES][3]);
 
 /* Frees its members and leaves it empty. */
 void body_order_clear(struct body_order *order);

@@ -66,6 +66,10 @@ static const struct key keys[] = {
     {"instance", KEY_TEXT, .required = false,
      .allowed = "the name of an instance in the assembly of a deck",
      KEY_SAYS("the only one with solids", "which part of a deck of Abaqus is the body")},
+    {"flexibility", KEY_TEXT, .required = false, .allowed = "ahead or later",
+     KEY_SAYS("ahead",
+              "when that of a mesh's surface is solved for: everywhere at once, or at each "
+              "place when a request first hits it")},
     {"raise", KEY_TEXT, .required = false, .allowed = "true or false",
      KEY_SAYS("false", "whether linear elements are taken, with mid nodes on straight edges")},
 };
@@ -221,6 +225,21 @@ static void place_in_file(const struct mesh_body *mesh, const struct mesh_place 
 {
     for (int k = 0; k < 3; k++)
         point[k] = (place->point[k] + mesh->centre[k]) / mesh->unit;
+}
+
+void body_order_want_sites(const struct body_order *order, const struct body *body)
+{
+    for (size_t i = 0; i < body->site_count; i++) {
+        struct mesh_place place;
+        double point[3], p[3];
+        body_site_point(body, &body->sites[i], point);
+        to_mesh(body, point, p);
+        if (mesh_surface_find(body->mesh, p, 0.0, &place, 1) == 0 ||
+            !mesh_surface_at(body->mesh, place.face, place.u, place.v).unsolved)
+            continue;
+        place_in_file(body->mesh, &place, point);
+        body_order_want(order, point);
+    }
 }
 
 static struct face face_at(const struct body *body, const struct mesh_place *place,

@@ -419,23 +419,37 @@ enum percuss_status placement_find_rates(struct problem *problem, struct fault *
     return status ? status : find_compression(problem, fault);
 }
 
-/* Refuses a place whose flexibility is not solved for yet. */
-static enum percuss_status check_solved(const struct problem *problem, struct fault *fault)
+/* Refuses a place whose flexibility is not solved for yet. A daemon that has made the body itself
+ * is asked for it. */
+static enum percuss_status refuse_unsolved(const struct body *body, const struct body_order *order,
+                                           const double foot[3], size_t index, struct fault *fault)
 {
+    if (!order)
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                         "contacts[%zu].point: on mesh %s: its flexibility there is not solved for "
+                         "yet: percuss-reduce --add-sites '%s' --site %.9g,%.9g,%.9g solves it",
+                         index, body->id, body->mesh->path ? body->mesh->path : "BODY.h5", foot[0],
+                         foot[1], foot[2]);
+    body_order_want(order, foot);
+    struct body_news news = body_order_news(order);
+    return fault_set(fault, news.status, "contacts[%zu].point: on mesh %s: %s", index, body->id,
+                     news.text);
+}
+
+/* All places of the request that wait are asked for together. */
+static enum percuss_status check_solved(const struct problem *problem,
+                                        const struct body_set *catalogue, struct fault *fault)
+{
+    enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; i < problem->contact_count; i++)
         for (int which = 0; which < 2; which++) {
             const struct contact_side *side = &problem->sides[i][which];
             const struct body *body = problem->bodies[side->body];
-            const double *foot = side->site.spot.foot;
             if (side->site.spot.unsolved && body_is_flexible(body))
-                return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                                 "contacts[%zu].point: on mesh %s: its flexibility there is not "
-                                 "solved for yet: percuss-reduce --add-sites '%s' --site "
-                                 "%.9g,%.9g,%.9g solves it",
-                                 i, body->id, body->mesh->path ? body->mesh->path : "BODY.h5",
-                                 foot[0], foot[1], foot[2]);
+                status = refuse_unsolved(body, body_set_order(catalogue, body->id),
+                                         side->site.spot.foot, i, fault);
         }
-    return PERCUSS_OK;
+    return status;
 }
 
 enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
@@ -457,7 +471,7 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         status = choose_w(problem, fault);
     if (!status)
         status = placement_find_rates(problem, fault);
-    return status ? status : check_solved(problem, fault);
+    return status ? status : check_solved(problem, catalogue, fault);
 }
 
 enum percuss_status formulate(struct problem *problem, const struct solve_context *context,

@@ -29,6 +29,7 @@ refused "block: unit: missing: must be m, cm, mm" "block: {shape: mesh, file: bl
 refused "unit: furlong: must be m, cm, mm" "block: {shape: mesh, file: block.inp, unit: furlong}"
 refused "max_frequency: -1: must be a frequency in Hz" "block: {shape: mesh, file: block.inp, unit: mm, max_frequency: -1}"
 refused "raise: maybe: must be true or false" "block: {shape: mesh, file: block.inp, unit: mm, raise: maybe}"
+refused "flexibility: soon: must be ahead or later" "block: {shape: mesh, file: block.inp, unit: mm, flexibility: soon}"
 refused "instance: must be absent" "block: {shape: mesh, file: block.h5, instance: B-1}"
 refused "none.inp: No such file" "block: {shape: mesh, file: none.inp, unit: mm}"
 refused "unit: must be absent" "block: {shape: mesh, file: block.h5, unit: mm}"
@@ -93,6 +94,43 @@ told() {
     grep -q "could not be reduced: percuss-reduce: .*nowhere" "$err"
 }
 wait_for 10 told || fail "no reason for who asks"
+
+say "flexibility of a second body later: its sites once it is reduced, another place when a request hits it"
+later="shape: mesh, file: block.inp, unit: mm, material: aluminium, max_frequency: 150 kHz, flexibility: later"
+body "later: {$later, sites: {top: {point: [10, 5, 10]}}}"
+kill -HUP "$daemon"
+added() { # added COUNT
+    [ "$(grep -c 'later: sites added' "$log")" -eq "$1" ]
+}
+wait_for 100 added 1 || fail "no sites"
+answered() {
+    percuss query --a steel-sphere --b later --at-b top --speed 0.2 >"$out" 2>"$err" 9>&-
+}
+wait_for 20 answered || fail "not answered at its site"
+cp "$out" "$work/at_top"
+cat >"$work/request.json" <<'JSON'
+{"bodies": [{"id": "steel-sphere", "position": [0.004, 0, 0.020], "velocity": [0, 0, -0.2]}, {"id": "later"}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.004, 0, 0.005], "normal": [0, 0, 1]}]}
+JSON
+asks
+says "contacts[0].point: on mesh later: its flexibility there"
+says "ask again later"
+asked_again() {
+    asks
+    grep -q restitution "$out"
+}
+wait_for 20 asked_again || fail "not answered at another place"
+added 2 || fail "$(grep -c 'later: sites added' "$log") additions"
+answered && sed -i '/warning/d' "$out" "$work/at_top" && cmp "$out" "$work/at_top" || fail "an earlier answer has changed"
+
+say "of a mesh that has changed meanwhile none are added; requests say so"
+block 4 2 3 >"$work/block.inp"
+sed -i 's/0.004, 0/-0.004, 0/' "$work/request.json"
+refused_place() {
+    asks
+    grep -q "could not be solved for: percuss-reduce: .*block.inp: is not the mesh that" "$err"
+}
+wait_for 20 refused_place || fail "no reason for who asks"
 
 say "a daemon that ends takes the reduction with it"
 block 30 20 20 >"$work/block.inp"
