@@ -38,7 +38,8 @@ enum warning_kind {
     WARNING_TURN = 26,
     WARNING_JAM,
     WARNING_ALONG,
-    WARNING_KINDS = 30
+    WARNING_BETWEEN = 30,
+    WARNING_KINDS
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -409,6 +409,25 @@ static void find_breadth(const struct problem *problem, size_t c, struct warning
     }
 }
 
+/* Another contact on a mesh whose flexibility is solved for at single places: nothing is known
+ * between them but the modes. */
+static void find_between(const struct problem *problem, size_t c, struct warnings *warnings)
+{
+    for (unsigned which = 0; which < 2; which++) {
+        size_t index = problem->sides[c][which].body;
+        const struct body *body = problem->bodies[index];
+        bool alone = true;
+        for (size_t other = 0; other < c; other++)
+            alone = alone && problem->sides[other][0].body != index &&
+                    problem->sides[other][1].body != index;
+        if (!alone && body->mesh && mesh_body_is_later(body->mesh) && body_is_flexible(body))
+            warnings_add(warnings, WARNING_BETWEEN,
+                         "contacts[%zu]: of what contacts on %s do to each other its modes alone "
+                         "are known: reduce its mesh with flexibility ahead for more",
+                         c, body->id);
+    }
+}
+
 static void find_contact(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
@@ -428,6 +447,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     }
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);
+    find_between(problem, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
     askew_find(problem, c, model_impact_of(problem, outcome, c).duration, warnings);
     if (unstated_any(problem, c)) {

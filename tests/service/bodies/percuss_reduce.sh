@@ -83,6 +83,14 @@ expect 0 asks ahead --json
 # what a face's shape functions leave of the site's own
 awk -v a="$(field restitution)" -v b="$(sed -n 's/.*"restitution": \([0-9.e-]*\),.*/\1/p' "$work/later.json" | head -n 1)" \
     'BEGIN { exit !(b > 0 && (a - b) ^ 2 < 1e-10) }' || fail "another answer than ahead"
+cat >"$work/two.json" <<'JSON'
+{"bodies": [{"id": "ball", "position": [0, 0, 0.011], "velocity": [0, 0, -0.3]},
+  {"id": "ball", "position": [0.013, -0.0035, 0.011], "velocity": [0, 0, -0.3]}, {"id": "later"}],
+ "contacts": [{"a": 0, "b": 2, "point": [0, 0, 0.005], "normal": [0, 0, 1]},
+  {"a": 1, "b": 2, "point": [0.013, -0.0035, 0.005], "normal": [0, 0, 1]}]}
+JSON
+expect 0 "$bin/percuss" query --local --catalogue "$work/later.yaml" --request "$work/two.json"
+says "contacts[1]: of what contacts on later do to each other its modes alone are known"
 expect 1 "$bin/percuss-reduce" --add-sites "$work/block.h5" --site 20,7.5,10
 says "block.h5: was not made with --flexibility later"
 if [ "$(id -u)" = 0 ]; then
