@@ -79,6 +79,7 @@ static const struct argp_option list[] = {
      "That of the surface is solved for ahead (default) or later: at the sites alone, to which "
      "--add-sites adds others",
      2},
+    {"sites", 0, NULL, OPTION_ALIAS, NULL, 0},
     {"add-sites", ADD_SITES, "BODY.h5", 0,
      "Solve for it at the sites and add them to a body that was made so; FILE, if the mesh has "
      "moved, but no other option of it",
