@@ -34,7 +34,7 @@ install(FILES ${made}/percussd.yaml ${made}/catalogue.yaml
 install(FILES deploy/systemd/percussd.service DESTINATION lib/systemd/system COMPONENT daemon)
 install(DIRECTORY client/python/percuss DESTINATION lib/python3/dist-packages COMPONENT python
         PATTERN __pycache__ EXCLUDE)
-install(FILES ${PROJECT_BINARY_DIR}/client/impact.html DESTINATION lib/python3/dist-packages/percuss COMPONENT python)
+install(FILES ${PROJECT_BINARY_DIR}/client/page.html DESTINATION lib/python3/dist-packages/percuss COMPONENT python)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME percuss)

@@ -12,6 +12,7 @@
 #include "cli.h"
 #include "csv.h"
 #include "differences.h"
+#include "html_page.h"
 #include "json_writer.h"
 #include "measured_file.h"
 #include "plot.h"
@@ -157,7 +158,7 @@ static json_t *distance_to_json(const struct distance *distance)
     return object;
 }
 
-static void compare_print_json(const struct comparison *comparison)
+static json_t *comparison_to_json(const struct comparison *comparison)
 {
     json_t *root = json_object(), *array = json_array(), *residual = json_object();
     /* impact by impact */
@@ -199,7 +200,27 @@ static void compare_print_json(const struct comparison *comparison)
     json_object_set_new(root, "impacts", array);
     json_object_set_new(root, "left_out", measured_file_left_to_json(comparison->set));
     json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));
-    json_print(root);
+    return root;
+}
+
+/* The same for the page, and what only that needs. Exit code; complains. */
+static int compare_write_page(const char *file, const struct comparison *comparison,
+                              const struct common *common)
+{
+    json_t *data = comparison_to_json(comparison), *errors = json_array();
+    bool good = data && errors;
+    for (size_t i = 0; good && i < comparison->set->count; i++)
+        good = json_array_append_new(errors, json_number(comparison->twins[i].error_total)) == 0;
+    json_t *rest = json_pack("{sssosissso}", "kind", "compare", "title",
+                             json_text_or_null(comparison->title), "least_impacts", LEAST_IMPACTS,
+                             "version", PERCUSS_VERSION, "error_total", errors);
+    good = good && rest && json_object_update(data, rest) == 0;
+    json_decref(rest);
+    if (!good) {
+        json_decref(data);
+        data = NULL;
+    }
+    return html_page_write(file, data, NULL, NULL, common);
 }
 
 /* The picture of a comparison. */
@@ -349,7 +370,7 @@ static int compare_plot(const struct plot_output *output, const struct compariso
     return plot_end(&plot);
 }
 
-enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED };
+enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED, KEY_HTML };
 enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
 
 struct compare {
@@ -357,6 +378,7 @@ struct compare {
     struct scene scene;
     const char *file;
     struct plot_output plot;
+    const char *html; /* file of a page; NULL: none */
     struct column_map columns;
     bool csv;
     unsigned permutations, seed;
@@ -364,6 +386,11 @@ struct compare {
 
 static const struct argp_option options[] = {
     {"csv", KEY_CSV, NULL, 0, "print the impacts as comma-separated values", 90},
+    {"html", KEY_HTML, "FILE", 0,
+     "write a page for a browser: measured and simulated restitutions with their errors, "
+     "residuals, "
+     "distributions; - is standard output",
+     40},
     {"permutations", KEY_PERMUTATIONS, "N", 0,
      "random permutations behind the p-value of the energy distance (default 1999)", 40},
     {"seed", KEY_SEED, "N", 0, "of the permutations (default 1)", 40},
@@ -391,6 +418,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     /* the output */
     case KEY_CSV:
         compare->csv = true;
+        return 0;
+    case KEY_HTML:
+        compare->html = html_page_file(text, state);
         return 0;
     /* the test by permutations */
     case KEY_PERMUTATIONS:
@@ -433,14 +463,19 @@ const struct argp compare_argp = {
 static int report(const struct compare *compare, const struct comparison *comparison)
 {
     if (compare->common->json)
-        compare_print_json(comparison);
+        json_print(comparison_to_json(comparison));
     else if (compare->csv)
         compare_print_csv(comparison, compare->common->units);
     else
         compare_print_table(comparison);
     if (!compare->common->json)
         tally_complain(comparison->warnings);
-    return plot_wanted(&compare->plot) ? compare_plot(&compare->plot, comparison) : EXIT_ANSWERED;
+    int code = EXIT_ANSWERED;
+    if (plot_wanted(&compare->plot))
+        code = compare_plot(&compare->plot, comparison);
+    if (code == EXIT_ANSWERED && compare->html)
+        code = compare_write_page(compare->html, comparison, compare->common);
+    return code;
 }
 
 static int run(const struct compare *compare, struct twins *twins, struct measured_set *set)

@@ -13,6 +13,7 @@
 #include "cli.h"
 #include "ensemble_output.h"
 #include "fold.h"
+#include "html_page.h"
 #include "input_text.h"
 #include "json_writer.h"
 #include "output_file.h"
@@ -34,6 +35,7 @@ enum {
     KEY_CSV,
     KEY_DEADLINE,
     KEY_PROGRESS,
+    KEY_HTML,
     KEY_VERBOSE = 'v'
 };
 
@@ -42,7 +44,8 @@ struct ensemble {
     struct scene scene;
     struct percuss_ensemble_request *request;
     bool has_speed, has_samples, model_error, progress, verbose;
-    const char *csv; /* file; NULL: not wanted */
+    const char *csv;  /* file; NULL: not wanted */
+    const char *html; /* likewise */
     struct plot_output plot;
 };
 
@@ -71,6 +74,10 @@ static const struct argp_option options[] = {
     {"quantiles", KEY_QUANTILES, "P,P,...", 0, "probabilities of the quantiles", 14},
     {"bins", KEY_BINS, "N", 0, "of the histogram", 14},
     {"csv", KEY_CSV, "FILE", 0, "write every sample", 15},
+    {"html", KEY_HTML, "FILE", 0,
+     "write a page for a browser: the distribution of the restitution, what causes its spread, the "
+     "samples; - is standard output",
+     15},
     {"deadline", KEY_DEADLINE, "S", 0,
      "seconds, or with a unit, after which the server answers with what it has", 15},
     {"verbose", KEY_VERBOSE, NULL, 0,
@@ -181,7 +188,7 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     for (size_t i = 0; !ensemble->has_samples && i < request->input_count; i++)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;
-    request->list_samples = ensemble->csv || plot_wanted(&ensemble->plot);
+    request->list_samples = ensemble->csv || ensemble->html || plot_wanted(&ensemble->plot);
 }
 
 /* Parses an uncertain input. */
@@ -263,6 +270,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CSV:
         output_file_check("csv", text, state);
         ensemble->csv = text;
+        return 0;
+    case KEY_HTML:
+        ensemble->html = html_page_file(text, state);
         return 0;
     case KEY_PROGRESS:
         ensemble->progress = true;
@@ -360,6 +370,10 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     if (plot_wanted(&ensemble->plot) && reply.statistic_count > 0 &&
         ensemble_plot(&ensemble->plot, scene_describe(&ensemble->scene, bodies).title, request,
                       &reply) != EXIT_ANSWERED)
+        code = EXIT_FAILURE;
+    if (ensemble->html && reply.statistic_count > 0 &&
+        ensemble_write_page(ensemble->html, scene_describe(&ensemble->scene, bodies).title, request,
+                            &reply, ensemble->common) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (ensemble->common->json)
         json_print(ensemble_to_json(&reply));

@@ -14,10 +14,12 @@
 #include "cli.h"
 #include "csv.h"
 #include "fold.h"
+#include "html_page.h"
 #include "json_schema.h"
 #include "json_writer.h"
 #include "others.h"
 #include "plot_ensemble.h"
+#include "request_json.h"
 
 /* A table. */
 
@@ -355,7 +357,20 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
 }
 
 /* Columns of the listed samples behind the inputs, and behind these with friction. */
-enum { RESTITUTION, SIGNIFICANT = 5, RESULTS = 7, TANGENTIAL = 4 };
+enum { RESTITUTION, SIGNIFICANT = 5, STATUS, RESULTS, TANGENTIAL = 4 };
+static const char *const result_names[RESULTS + TANGENTIAL] = {
+    "restitution",
+    "impulse",
+    "end_time",
+    "peak_force",
+    "sub_impacts",
+    "significant",
+    "status",
+    "impulse_tangential_1",
+    "impulse_tangential_2",
+    "tangential_restitution",
+    "restitution_kinematic",
+};
 
 static void write_head(FILE *stream, const struct percuss_ensemble_request *request,
                        bool tangential, bool units)
@@ -367,21 +382,26 @@ static void write_head(FILE *stream, const struct percuss_ensemble_request *requ
         csv_head(stream, name, units);
         putc(',', stream);
     }
-    csv_head(stream, "restitution,impulse,end_time,peak_force,sub_impacts,significant,status",
-             units);
-    if (tangential)
-        csv_head(stream,
-                 ",impulse_tangential_1,impulse_tangential_2,tangential_restitution,"
-                 "restitution_kinematic",
-                 units);
+    for (size_t c = 0; c < (tangential ? RESULTS + TANGENTIAL : RESULTS); c++) {
+        fputs(c > 0 ? "," : "", stream);
+        csv_head(stream, result_names[c], units);
+    }
     putc('\n', stream);
+}
+
+/* Columns of the listed samples; 0: they did not arrive. */
+static size_t column_count(const struct percuss_ensemble_request *request,
+                           const struct percuss_ensemble_reply *reply)
+{
+    size_t plain = request->input_count + RESULTS, columns = reply->column_count;
+    return reply->rows && (columns == plain || columns == plain + TANGENTIAL) ? columns : 0;
 }
 
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
                         const struct percuss_ensemble_reply *reply, bool units)
 {
-    size_t columns = reply->column_count, plain = request->input_count + RESULTS;
-    if (!reply->rows || (columns != plain && columns != plain + TANGENTIAL)) {
+    const size_t plain = request->input_count + RESULTS, columns = column_count(request, reply);
+    if (columns == 0) {
         complain("%s: the samples did not arrive", file);
         return false;
     }
@@ -431,6 +451,65 @@ json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply)
 json_t *ensemble_schema(void)
 {
     return json_schema(ensemble_reply_members(), false);
+}
+
+/* A page. */
+
+/* More points cannot be told apart. */
+enum { SAMPLES_SHOWN = 4000 };
+
+static json_t *column_names(const struct percuss_ensemble_request *request, size_t columns)
+{
+    json_t *names = json_array();
+    bool good = names;
+    for (size_t c = 0; good && c < columns; c++) {
+        const struct percuss_input *input = &request->inputs[c];
+        json_t *name =
+            c >= request->input_count
+                ? json_string(result_names[c - request->input_count])
+                : json_sprintf("%s%s%s", input->name, input->body[0] ? "@" : "", input->body);
+        good = json_array_append_new(names, name) == 0;
+    }
+    if (good)
+        return names;
+    json_decref(names);
+    return NULL;
+}
+
+struct samples {
+    const double *rows;
+    size_t count, columns;
+};
+
+static void put_samples(FILE *out, const void *context)
+{
+    const struct samples *samples = context;
+    fputs(",\"samples\":[", out);
+    for (size_t i = 0; i < samples->count; i++) {
+        fputs(i ? "," : "", out);
+        html_page_put_numbers(out, samples->rows + i * samples->columns, samples->columns);
+    }
+    fputc(']', out);
+}
+
+int ensemble_write_page(const char *file, const char *title,
+                        const struct percuss_ensemble_request *request,
+                        const struct percuss_ensemble_reply *reply, const struct common *common)
+{
+    const size_t columns = column_count(request, reply);
+    const struct samples samples = {.rows = reply->rows,
+                                    .columns = columns,
+                                    .count = columns == 0 ? 0
+                                             : reply->samples > SAMPLES_SHOWN
+                                                 ? SAMPLES_SHOWN
+                                                 : (size_t)reply->samples};
+    json_t *data = json_pack(
+        "{sssosssososo}", "kind", "ensemble", "title", json_text_or_null(title), "request_note",
+        "Or, with the same catalogue, the impact in the middle of the inputs by this request, as "
+        "percuss query --request FILE takes it:",
+        "request", request_to_json(&request->scene), "reply", ensemble_to_json(reply), "columns",
+        column_names(request, columns));
+    return html_page_write(file, data, put_samples, &samples, common);
 }
 
 /* A picture. */

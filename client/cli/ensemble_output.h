@@ -7,6 +7,7 @@
 #include <jansson.h>
 #include <percuss/percuss.h>
 
+#include "cli.h"
 #include "plot.h"
 
 /* The reply for people. */
@@ -23,6 +24,11 @@ json_t *ensemble_schema(void);
  * complains. */
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
                         const struct percuss_ensemble_reply *reply, bool units);
+
+/* Writes the page of the reply, with its first listed samples. Exit code; complains. */
+int ensemble_write_page(const char *file, const char *title,
+                        const struct percuss_ensemble_request *request,
+                        const struct percuss_ensemble_reply *reply, const struct common *common);
 
 /* Draws the reply, and the restitution over the speed from its listed samples. Exit code;
  * complains. */

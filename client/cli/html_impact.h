@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* An impact as a page for a browser, which needs no network: the bodies in motion, the histories,
- * the numbers. The page and its scripts are in client/page. */
+ * the numbers. */
 #ifndef PERCUSS_CLI_HTML_IMPACT_H
 #define PERCUSS_CLI_HTML_IMPACT_H
 

@@ -22,7 +22,7 @@ static const char *const tangential_labels[2] = {"tangential impulse / mN s",
 /* Restitutions are drawn on an axis of at least this: an elastic impact's errors are rounding. */
 static const double LEAST_RESTITUTION = 0.05;
 
-static bool bodies_differ(const struct sweep_points *points)
+bool sweep_bodies_differ(const struct sweep_points *points)
 {
     for (size_t k = 1; k < points->curve_count; k++)
         if (strcmp(points->curves[k].b, points->curves->b))
@@ -365,7 +365,7 @@ static size_t list_groups(const struct sweep_points *points, const char *bodies[
 {
     size_t count = 0;
     bodies[0] = NULL;
-    if (!bodies_differ(points) || !models_differ(points))
+    if (!sweep_bodies_differ(points) || !models_differ(points))
         return 1;
     for (size_t k = 0; k < points->curve_count; k++)
         if (count == 0 || strcmp(points->curves[k].b, bodies[count - 1]) != 0)
@@ -378,7 +378,7 @@ static void write_heading(const struct plot *plot, const struct sweep_points *po
 {
     char title[PERCUSS_ID_SIZE + 32];
     snprintf(title, sizeof title, "%s on bodies at rest", points->a);
-    plot_text(plot, bodies_differ(points) ? title : points->title);
+    plot_text(plot, sweep_bodies_differ(points) ? title : points->title);
 }
 
 int sweep_plot(const struct plot_output *output, const struct sweep_points *points)
@@ -403,7 +403,7 @@ int sweep_plot(const struct plot_output *output, const struct sweep_points *poin
     write_heading(&plot, points);
     fputs("\nset ylabel 'restitution e'\n", plot.script);
     for (size_t g = 0; g < groups; g++) {
-        const struct group group = {points, bodies[g], !bodies[g] && bodies_differ(points),
+        const struct group group = {points, bodies[g], !bodies[g] && sweep_bodies_differ(points),
                                     models_differ(points)};
         double whole = plot.width, left = AXIS + (double)width / (double)groups * (double)g;
         write_group(&plot, &group, &axes, left / whole,

@@ -15,6 +15,7 @@
 #include "ensemble_output.h"
 #include "fall.h"
 #include "html_impact.h"
+#include "html_page.h"
 #include "json_writer.h"
 #include "measured_file.h"
 #include "output_file.h"
@@ -295,7 +296,9 @@ static const struct argp_option options[] = {
      30},
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
     {"html", KEY_HTML, "FILE", 0,
-     "write the impact as a page for a browser: its bodies in motion, histories and numbers", 40},
+     "write the impact as a page for a browser: its bodies in motion, histories and numbers; - is "
+     "standard output",
+     40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
      "lay a measured history over the picture: columns time, velocity_a or displacement_a, and "
      "those of b; given several times, each over another speed",
@@ -424,8 +427,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         query->trace = text;
         return 0;
     case KEY_HTML:
-        output_file_check("html", text, state);
-        query->html = text;
+        query->html = html_page_file(text, state);
         return 0;
     case KEY_CSV:
         query->csv = true;

@@ -17,9 +17,11 @@
 #include "cli.h"
 #include "fall.h"
 #include "fold.h"
+#include "html_page.h"
 #include "measured_file.h"
 #include "output_file.h"
 #include "quantity.h"
+#include "request_json.h"
 #include "scene.h"
 #include "sweep_output.h"
 
@@ -419,7 +421,7 @@ static bool sweep_file_agrees(const char *name, const struct sweep_points *point
 }
 
 enum { MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_DROP, KEY_SPEEDS, KEY_CSV, KEY_RESUME, KEY_MEASURED };
+enum { KEY_SPEED = OPTION_OWN, KEY_DROP, KEY_SPEEDS, KEY_CSV, KEY_RESUME, KEY_MEASURED, KEY_HTML };
 enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
 
 struct sweep {
@@ -435,8 +437,9 @@ struct sweep {
     unsigned count;          /* points */
     bool csv;
     const char *resume; /* file that is gone on with; NULL: none */
+    const char *html;   /* file of a page; NULL: none */
     struct plot_output plot;
-    struct sweep_measurements measured; /* laid over the picture */
+    struct sweep_measurements measured; /* laid over the picture and the page */
 };
 
 static const struct argp_option options[] = {
@@ -457,8 +460,13 @@ static const struct argp_option options[] = {
      "go on with a sweep that came to an end before its time: asks for the rows that FILE.csv "
      "lacks and adds them to it, as comma-separated values; begins it if it is not there",
      40},
+    {"html", KEY_HTML, "FILE", 0,
+     "write the curves as a page for a browser: restitution with its error, sub-impacts, duration, "
+     "forces, the values under the pointer; - is standard output",
+     40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
-     "lay measured impacts over the picture: columns speed, restitution and sub_impacts; "
+     "lay measured impacts over the picture or the page: columns speed, restitution and "
+     "sub_impacts; "
      "ID=FILE.csv: those on body ID alone; may be given several times",
      40},
     {0},
@@ -580,13 +588,17 @@ static error_t parse(int key, char *text, struct argp_state *state)
         output_file_check("resume", text, state);
         sweep->resume = text;
         return 0;
+    case KEY_HTML:
+        sweep->html = html_page_file(text, state);
+        return 0;
     case KEY_MEASURED:
         sweep_measured_add(&sweep->measured, text, state);
         return 0;
     /* all are read */
     case ARGP_KEY_END:
         sweep_check(sweep, state);
-        sweep_measured_read(&sweep->measured, &sweep->scene, plot_wanted(&sweep->plot), state);
+        sweep_measured_read(&sweep->measured, &sweep->scene,
+                            plot_wanted(&sweep->plot) || sweep->html, state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -754,6 +766,28 @@ static void tell_end(const struct work *work)
                  work->file ? ": the same command goes on" : "");
 }
 
+/* The page of all curves, with the first request of this one. A sweep without an answer has none.
+ */
+static int write_page(const struct work *work, size_t asked)
+{
+    const struct sweep_points *points = &work->points;
+    const struct sweep_run *run = &work->runs[asked];
+    size_t done = 0;
+    for (size_t k = 0; k < points->curve_count; k++)
+        done += points->curves[k].done;
+    if (done == 0)
+        return EXIT_ANSWERED;
+    json_t *data = sweep_to_page(points);
+    struct percuss_request request;
+    /* nothing was asked for where all rows stood in a file */
+    if (data && run->bodies.pair.a && make_request(run, 0, &request) == EXIT_ANSWERED &&
+        json_object_set_new(data, "request", request_to_json(&request)) != 0) {
+        json_decref(data);
+        data = NULL;
+    }
+    return html_page_write(work->sweep->html, data, NULL, NULL, work->sweep->common);
+}
+
 static int finish(struct work *work, int code)
 {
     const struct sweep *sweep = work->sweep;
@@ -766,6 +800,8 @@ static int finish(struct work *work, int code)
         scene_describe(&work->runs[asked].scene, &work->runs[asked].bodies);
     work->points.title = text.title;
     if (plot_wanted(&sweep->plot) && sweep_plot(&sweep->plot, &work->points) != EXIT_ANSWERED)
+        code = EXIT_FAILURE;
+    if (sweep->html && write_page(work, asked) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (sweep->common->json)
         sweep_print_json(&work->points);
@@ -845,8 +881,9 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
         code = open_file(work);
     if (code == EXIT_ANSWERED) {
         sweep_run_catch_interrupts();
-        /* a reader that closes the output early is no reason to leave out the picture */
-        if (plot_wanted(&sweep->plot))
+        /* a reader that closes the output early is no reason to leave out the picture or the page
+         */
+        if (plot_wanted(&sweep->plot) || sweep->html)
             signal(SIGPIPE, SIG_IGN);
         code = finish(work, ask_all(work));
     }

@@ -184,7 +184,8 @@ void sweep_measured_read(struct sweep_measurements *measurements, const struct s
     for (size_t i = 0; i < measurements->count; i++)
         check_measured(&measurements->list[i], scene, state);
     if (measurements->count > 0 && !is_drawn)
-        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+        argp_error(state,
+                   "--measured is laid over a picture: --plot FILE or --html FILE is needed");
     for (size_t i = 0; i < measurements->count; i++) {
         struct measured_remarks remarks = {0};
         struct sweep_measured *measured = &measurements->list[i];

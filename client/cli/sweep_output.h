@@ -10,6 +10,7 @@
 #define PERCUSS_CLI_SWEEP_OUTPUT_H
 
 #include <argp.h>
+#include <jansson.h>
 #include <percuss/reply.h>
 #include <stdio.h>
 
@@ -18,7 +19,7 @@
 #include "scene.h"
 #include "tally_output.h"
 
-/* Measured restitutions, laid over the picture of a sweep. */
+/* Measured restitutions, laid over the picture and the page of a sweep. */
 enum { SWEEP_MEASURED_MOST = 8 };
 
 struct sweep_measured {
@@ -80,6 +81,9 @@ struct sweep_points {
     bool units; /* in the head of CSV */
 };
 
+/* Whether the curves are of several bodies B. */
+bool sweep_bodies_differ(const struct sweep_points *points);
+
 /* Of point i, by its reply. */
 struct sweep_row sweep_row_of(const struct sweep_points *points, unsigned i,
                               const struct percuss_reply *reply);
@@ -96,6 +100,10 @@ void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE
 /* {"points": [{the columns, "reply": the whole reply}], "warnings": [...]}; of several curves
  * {"curves": [{"b", "contact_model", "points"}], "warnings": [...]} */
 void sweep_print_json(const struct sweep_points *points);
+
+/* What the page of a sweep shows, but its command and a request; the caller releases it. NULL: out
+ * of memory. */
+json_t *sweep_to_page(const struct sweep_points *points);
 
 /* The restitution against the speed, or the angle, with its total error, the number of
  * sub-impacts below; with friction the tangential impulse and restitution between them. Exit code;

@@ -1,10 +1,10 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Makes of the page, its scripts and dygraphs one file, in which @DATA@ is left for an impact, and a C source with its
+# Makes of the page, its scripts and dygraphs one file, in which @DATA@ is left for what it shows, and a C source with its
 # bytes. cmake -D FOLDER=(of this file) -D DYGRAPHS=(its files) -D PAGE=(to write) -D SOURCE=(to write) -P embed.cmake
 cmake_minimum_required(VERSION 3.20)
-file(READ ${FOLDER}/impact.html page)
+file(READ ${FOLDER}/page.html page)
 file(READ ${DYGRAPHS}/dygraph.min.css style)
 file(READ ${DYGRAPHS}/dygraph.min.js plots)
 file(READ ${FOLDER}/dygraphs-licence.txt licence)
@@ -13,7 +13,7 @@ string(REGEX REPLACE "/[/*]# sourceMappingURL=[a-z.]*( \\*/)?" "" style "${style
 string(REGEX REPLACE "//# sourceMappingURL=[a-z.]*" "" plots "${plots}")
 string(REPLACE "<" "&lt;" licence "${licence}")
 set(scripts "")
-foreach(name motion picture page)
+foreach(name motion picture common impact chart results start)
   file(READ ${FOLDER}/${name}.js script)
   string(APPEND scripts "${script}")
 endforeach()
@@ -27,4 +27,4 @@ file(READ ${PAGE} bytes HEX)
 string(REGEX REPLACE "(................................................................................)" "\\1\n"
        bytes "${bytes}")
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
-file(WRITE ${SOURCE} "extern const unsigned char impact_page[];\nconst unsigned char impact_page[] = {\n${bytes}0};\n")
+file(WRITE ${SOURCE} "extern const unsigned char page_template[];\nconst unsigned char page_template[] = {\n${bytes}0};\n")

@@ -35,7 +35,8 @@ static enum percuss_result make_request(const struct twin_question *question,
 /* A reply in the terms of a measurement. */
 static struct twin twin_of(const struct percuss_reply *reply, double speed)
 {
-    struct twin twin = {.status = reply->status, .impact = measured_impact_unknown()};
+    struct twin twin = {
+        .status = reply->status, .impact = measured_impact_unknown(), .error_total = NAN};
     twin.impact.speed = speed;
     twin.a_is_rigid = reply->model.body_count > 0 && reply->model.bodies[0].rigid;
     twin.b_is_rigid = reply->model.body_count > 1 && reply->model.bodies[1].rigid;
@@ -45,6 +46,9 @@ static struct twin twin_of(const struct percuss_reply *reply, double speed)
     const struct percuss_contact_result *contact = &reply->contacts[0];
     twin.inverse_mass = contact->inverse_effective_mass;
     twin.impact.restitution = contact->restitution;
+    /* a server of 0.1.0 knows no errors of models: 0 */
+    if (reply->error.restitution_total > 0.0)
+        twin.error_total = reply->error.restitution_total;
     twin.impact.impulse = contact->impulse;
     twin.impact.sub_impacts = contact->sub_impact_count;
     /* its first sub-impact, and when the next one begins that an instrument would see */

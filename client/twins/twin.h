@@ -14,6 +14,7 @@ struct twin {
     enum percuss_status status;
     struct measured_impact impact;
     double inverse_mass; /* effective, 1/kg */
+    double error_total;  /* of the restitution; NAN: not known */
     bool a_is_rigid, b_is_rigid;
 };
 

@@ -23,11 +23,11 @@ _MARK = "@DATA@"
 
 def _template() -> str:
     """The page without an impact: of an installed package beside this file, of a build beside the library."""
-    places = [Path(__file__).with_name("impact.html"), Path(_abi.library._name).resolve().with_name("impact.html")]
+    places = [Path(__file__).with_name("page.html"), Path(_abi.library._name).resolve().with_name("page.html")]
     for place in places:
         if place.exists():
             return place.read_text(encoding="utf-8")
-    raise FileNotFoundError(f"the page impact.html was not found: {', '.join(map(str, places))}")
+    raise FileNotFoundError(f"the page page.html was not found: {', '.join(map(str, places))}")
 
 
 def _body(body: "Body | None") -> Any:

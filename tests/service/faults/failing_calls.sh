@@ -117,9 +117,9 @@ try files 60 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"
 try memory 8 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"
 try memory 10 "$bin/percuss" query $pair --speed 0.3 --json --trace "$files/trace.csv" --html "$files/impact.html"
 try files 100 "$bin/percuss" ensemble $pair --speed uniform:0.1:0.3 --samples 50 --csv "$files/samples.csv"
-try memory 10 "$bin/percuss" ensemble $pair --speed uniform:0.1:0.3 --samples 50 --json
+try memory 10 "$bin/percuss" ensemble $pair --speed uniform:0.1:0.3 --samples 50 --json --html "$files/samples.html"
 try files 100 "$bin/percuss" sweep $pair --speed 0.1:0.3:3 --plot "$files/plot.svg"
-try memory 10 "$bin/percuss" sweep $pair --speed 0.1:0.3:3 --csv
+try memory 10 "$bin/percuss" sweep $pair --speed 0.1:0.3:3 --csv --html "$files/sweep.html"
 try memory 8 "$bin/percuss" compare "$data" $pair
 stop_daemon
 

@@ -82,6 +82,7 @@
     tell("zooms", Math.abs(page.plots.energy.xAxisRange()[1] - 1e3 * main.time[peak]) < 1e-9);
     tell("request", data.request.bodies.length === JSON.parse($$("request").textContent).bodies.length);
     tell("command", $$("command").textContent);
+    tell("told", $$("drawn").textContent);
   } catch (error) {
     tell("error", error.stack);
   }

@@ -4,17 +4,6 @@
 /* The page of one impact: its numbers, the animation with its time axis, the plots by dygraphs. */
 "use strict";
 
-const $ = (id) => document.getElementById(id);
-const number = (x, digits = 6) => (x === null || x === undefined ? "not known" : String(Number(x.toPrecision(digits))));
-
-/* Adds an element with this text; returns it. */
-function put(parent, name, text = "") {
-  const element = document.createElement(name);
-  element.textContent = text;
-  parent.appendChild(element);
-  return element;
-}
-
 /* The last instant that is not after t. */
 function instantAt(time, t) {
   let low = 0, high = time.length - 1;
@@ -45,9 +34,6 @@ function restitutionText(reply, contact) {
   return [text, parts.join("; ")];
 }
 
-/* " ± 0.02"; empty from a server that does not know it. */
-const bar = (error) => (error > 0 ? ` ± ${number(error, 2)}` : "");
-
 function contactRows(data, c) {
   const {reply} = data, contact = reply.contacts[c];
   const rows = [["restitution", ...restitutionText(reply, contact)],
@@ -64,15 +50,10 @@ function contactRows(data, c) {
 }
 
 function showSubImpacts(parent, contact) {
-  const table = put(parent, "table");
-  const row = (name, texts) => {
-    const line = put(table, "tr");
-    for (const text of texts) put(line, name, text);
-  };
-  row("th", ["#", "start / ms", "length / µs", "impulse / N s", "share / %", "peak / N", "indentation / µm"]);
-  contact.sub_impacts.forEach((sub, i) => row("td", [String(i + 1) + (sub.negligible ? " (negligible)" : ""),
-    (1e3 * sub.start).toFixed(4), (1e6 * (sub.end - sub.start)).toFixed(2), number(sub.impulse),
-    ((100 * sub.impulse) / contact.impulse).toFixed(2), number(sub.peak_force, 4), number(1e6 * sub.max_indentation, 4)]));
+  putTable(parent, ["#", "start / ms", "length / µs", "impulse / N s", "share / %", "peak / N", "indentation / µm"],
+    contact.sub_impacts.map((sub, i) => [String(i + 1) + (sub.negligible ? " (negligible)" : ""),
+      (1e3 * sub.start).toFixed(4), (1e6 * (sub.end - sub.start)).toFixed(2), number(sub.impulse),
+      ((100 * sub.impulse) / contact.impulse).toFixed(2), number(sub.peak_force, 4), number(1e6 * sub.max_indentation, 4)]));
   if (contact.sub_impacts.length < contact.sub_impact_count)
     put(parent, "p", `${contact.sub_impact_count - contact.sub_impacts.length} more are not listed.`);
 }
@@ -81,13 +62,7 @@ function showNumbers(data) {
   const {reply} = data, parent = $("numbers");
   reply.contacts.forEach((contact, c) => {
     put(parent, "h2", named(data, c).join(" on "));
-    const table = put(parent, "table");
-    for (const [name, value, remark] of contactRows(data, c)) {
-      const row = put(table, "tr");
-      put(row, "th", name);
-      put(row, "td", value).id = `${name}-${c}`;
-      put(row, "td", remark);
-    }
+    putRows(parent, contactRows(data, c), `-${c}`);
     showSubImpacts(parent, contact);
   });
   const list = put(parent, "table");
@@ -106,8 +81,7 @@ function showNumbers(data) {
   const bodies = reply.model.bodies.map((b) => (b.rigid ? `${b.id} rigid` : `${b.id} ${b.theory}, ${b.modes} modes`));
   put(parent, "p", `Model: ${reply.model.contact_model} contact, ${reply.model.compliance} compliance, ` +
     `${reply.model.method} method; ${bodies.join("; ")}. ${reply.model.reason}`);
-  if (reply.status !== "OK") put($("warnings"), "p", `${reply.status}: ${reply.message}`);
-  for (const warning of reply.warnings) put($("warnings"), "p", `Warning: ${warning}`);
+  showWarnings(reply.status, reply.message, reply.warnings);
 }
 
 /* The plots. */
@@ -378,19 +352,11 @@ class Page {
   }
 }
 
-function showPage() {
-  const data = JSON.parse($("data").textContent);
-  document.title = data.title || named(data, 0).join(" on ");
-  $("title").textContent = document.title;
+function showImpact(data) {
   showNumbers(data);
-  $("command").textContent = data.command || "";
-  $("request").textContent = JSON.stringify(data.request, null, 2);
-  $("version").textContent = `percuss ${data.reply.version}, catalogue ${data.reply.catalogue_revision}`;
   window.percuss = new Page(data);
   /* "#1.25" opens the page at that many ms, stopped */
   const asked = parseFloat(location.hash.slice(1));
   if (Number.isFinite(asked)) window.percuss.show(asked / 1e3);
   else window.percuss.play(true);
 }
-
-showPage();
