@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, field
 from typing import Any, Optional
 
 import numpy as np
 
-from . import _convert, _ensemble_abi, _plots, _tables
+from . import _convert, _ensemble_abi, _page, _plots, _tables
 from .ensemble_request import Ensemble
 from .request import FloatArray
 from .reply import Timing
@@ -164,6 +165,8 @@ class EnsembleReply:
     friction also the other quantities of the statistics."""
     columns: tuple[str, ...] = field(repr=False)
     """Of the rows; an input of a body is called young@al-beam."""
+    question: Optional[Ensemble] = field(default=None, repr=False, compare=False)
+    """What was asked."""
 
     @property
     def restitution(self) -> Statistic:
@@ -185,6 +188,17 @@ class EnsembleReply:
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.ensemble(self, figure)
+
+    def to_html(self, title: str = "") -> _page.Page:
+        """The page that `percuss ensemble --html` writes: the distribution of the restitution, what causes its spread, with
+        list_samples the first 4000 samples; needs no network. A str, which a notebook shows.
+
+        ValueError of a refusal, which has no numbers."""
+        if self.question is None or not self.statistics:
+            raise ValueError(f"to_html: an ensemble without an answer ({self.status}) has no page")
+        scene = self.question.scene
+        contact = scene.contacts[self.question.contact]
+        return _page.ensemble(self, title or f"{scene.bodies[contact.a].id} on {scene.bodies[contact.b].id}")
 
     def _repr_html_(self) -> str:
         rows = [
@@ -233,5 +247,6 @@ def read(answer: _ensemble_abi.Reply, question: Ensemble) -> EnsembleReply:
         significant_counts=_convert.array(answer.significant_counts, answer.count_length),
         warnings=tuple(_convert.text(one) for one in answer.warnings[: answer.warning_count]),
         rows=rows,
+        question=copy.deepcopy(question),
         columns=(*(_name(one.name, one.body) for one in question.inputs), *_RESULTS, *_TANGENTIAL)[:columns],
     )

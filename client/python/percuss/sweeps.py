@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _convert, _plots, _tables
+from . import _convert, _page, _plots, _tables
 from .client import Client
 from .errors import WindowFull
 from .reply import Reply
@@ -75,6 +75,8 @@ class Sweep:
     """A curve for every body at rest and contact model."""
 
     curves: tuple[Curve, ...]
+    question: Request | None = field(default=None, repr=False, compare=False)
+    """Its first point."""
 
     def raise_for_status(self) -> "Sweep":
         """Returns the sweep if every point was answered; raises Refused otherwise."""
@@ -93,6 +95,14 @@ class Sweep:
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.sweep(self, figure)
+
+    def to_html(self, title: str = "", logarithmic: bool = False) -> _page.Page:
+        """The page that `percuss sweep --html` writes: restitution, sub-impacts, duration, peak force and impulse over
+        the speed, with bars of the total error, and all numbers; about 200 kB, which need no network. A str, which a
+        notebook shows. logarithmic: the axis of the speeds."""
+        names = {curve.b for curve in self.curves}
+        on = names.pop() if len(names) == 1 else "bodies at rest"
+        return _page.sweep(self, title or (f"{self.curves[0].a} on {on}" if self.curves else "sweep"), logarithmic)
 
     def _repr_html_(self) -> str:
         return "".join(
@@ -148,6 +158,7 @@ def sweep(
     if values.ndim != 1 or not (np.isfinite(values) & (values > 0.0)).all():
         raise ValueError(f"speeds: {speeds!r}: a list of numbers > 0 is allowed")
     curves = []
+    first_question = None
     for other in others:
         for model in map(ContactModel.of, models):
             places = (at_a, at_b, site_a, site_b)
@@ -157,8 +168,9 @@ def sweep(
             ]
             for question in questions:
                 question.options = replace(options, contact_model=model)
+            first_question = first_question or next(iter(questions), None)
             curves.append(_curve(first, other, model, values, _ask(client, questions, timeout)))
-    return Sweep(tuple(curves))
+    return Sweep(tuple(curves), first_question)
 
 
 def _values(speeds: Any) -> FloatArray:

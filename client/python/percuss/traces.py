@@ -12,12 +12,13 @@ SI units.
 import copy
 import ctypes
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, Optional
+from typing import Any, ClassVar, Optional
 
 import numpy as np
 
 from . import _abi, _convert, _page, _plots, _tables, request
 from .client import Client
+from .errors import CallError
 from .reply import Reply
 from .request import FloatArray, Request
 
@@ -82,6 +83,7 @@ class Trace:
     """Ids of bodies a and b of each contact."""
     question: Optional[Request] = None
     """What was asked."""
+    _client: ClassVar[Optional[Client]] = None
 
     def to_dataframe(self) -> Any:
         """A row an instant of a contact: contact, and the members of ContactTrace, those of friction where any contact
@@ -101,16 +103,22 @@ class Trace:
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.trace(self, figure)
 
-    def to_html(self, client: Client, title: str = "") -> str:
+    def to_html(self, client: Optional[Client] = None, title: str = "") -> _page.Page:
         """The page that `percuss query --html` writes: the bodies in motion, force, gap and energy over time, the
-        numbers, the request; about 300 kB, which need no network.
+        numbers, the request; about 300 kB, which need no network. A str, which a notebook shows.
 
-        client: whose catalogue says the shapes of the bodies. ValueError of a refusal, which has no histories."""
+        client: whose catalogue says the shapes of the bodies; None: of the one that was asked. ValueError of a
+        refusal, which has no histories."""
+        client = client or self._client
         if self.question is None or not self.contacts:
             raise ValueError(f"to_html: a trace without histories ({self.reply.status}) has no page")
-        known = client.bodies()
+        known = client.bodies() if client else {}
         bodies = [known.get(one.id) for one in self.question.bodies]
         return _page.trace(self, bodies, title or " on ".join(self.names[0]))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy in another process has no client."""
+        return {name: value for name, value in self.__dict__.items() if name != "_client"}
 
     def _repr_html_(self) -> str:
         rows = [
@@ -118,7 +126,11 @@ class Trace:
             for i, one in enumerate(self.contacts)
         ]
         heads = ["contact", "instants", "until/ms", "largest force/N", "largest indentation/um"]
-        return self.reply._repr_html_() + _tables.html("histories", heads, rows)
+        tables = self.reply._repr_html_() + _tables.html("histories", heads, rows)
+        try:
+            return tables + self.to_html()._repr_html_()
+        except (ValueError, CallError, FileNotFoundError):  # refused, or the client is closed: the tables alone
+            return tables
 
 
 def _read(source: Any) -> ContactTrace:
@@ -138,7 +150,9 @@ def trace(question: Request, client: Client, timeout: float = 10.0) -> Trace:
         client._check(code)
         contacts = tuple(_read(one) for one in histories.contacts[: histories.contact_count])
         names = tuple((question.bodies[one.a].id, question.bodies[one.b].id) for one in question.contacts[: len(contacts)])
-        return Trace(_convert.read(answer, Reply), contacts, names, copy.deepcopy(question))
+        traced = Trace(_convert.read(answer, Reply), contacts, names, copy.deepcopy(question))
+        object.__setattr__(traced, "_client", client)  # who was asked is no part of the answer
+        return traced
     finally:
         _library.percuss_trace_free(ctypes.byref(histories))
         _library.percuss_reply_free(ctypes.byref(answer))

@@ -4,6 +4,7 @@
 
 import csv
 import io
+import json
 import sys
 import unittest
 from pathlib import Path
@@ -28,6 +29,11 @@ def written(text: str) -> Any:
     return pandas.DataFrame({name: [kind(row[name]) for row in rows] for name, kind in kinds.items()})
 
 
+def data(page: str) -> Any:
+    """What a page shows."""
+    return json.loads(page.split('id="data">')[1].split("</script>")[0])
+
+
 class Sweeps(Beside):
     def test_as_the_program(self) -> None:
         """Every number of every curve, to the last bit."""
@@ -41,6 +47,23 @@ class Sweeps(Beside):
                 speeds = [0.1 + (0.4 - 0.1) * i / 6 for i in range(7)]
                 sweep = percuss.sweep("steel-sphere", b, speeds, client, contact_model=models, timeout=60.0)
                 pandas.testing.assert_frame_equal(sweep.to_dataframe(), expected, check_exact=True)
+
+    def test_page(self) -> None:
+        """The page has the program's columns, to the last bit, and the request of the first point."""
+        flags = ("--a", "steel-sphere", "--b", "al-rod-1", "--b", "al-beam", "--speed", "0.1:0.4:2")
+        program("sweep", *flags, "--html", "sweep.html")
+        expected = data(Path("sweep.html").read_text(encoding="utf-8"))
+        swept = percuss.sweep("steel-sphere", ["al-rod-1", "al-beam"], [0.1, 0.4], self.local)
+        found = data(swept.to_html())
+        for name in ("kind", "a", "title", "by_angle", "logarithmic", "measured", "request", "version", "curves"):
+            if name == "curves":
+                for one in expected[name]:
+                    del one["angle"]  # the page draws it over the angle alone
+            self.assertEqual(found[name], expected[name], name)
+        self.assertEqual(len(found["warnings"]), len(expected["warnings"]))
+        self.assertRegex(found["warnings"][0], r"^2 of 4 points, first on al-rod-1 at 0\.1 m/s: .*closed form")
+        self.assertIn("<iframe", swept.to_html()._repr_html_())
+        self.assertTrue(data(swept.to_html("A </script>", logarithmic=True))["logarithmic"])
 
     def test_more_than_a_window(self) -> None:
         """One of two outstanding questions is the caller's own; it is answered besides."""
@@ -137,6 +160,16 @@ class Tables(Beside):
         reply = percuss.ensemble(question, self.client)
         pandas.testing.assert_frame_equal(reply.to_dataframe(), expected, check_exact=True)
         self.assertIn("young@al-beam", reply._repr_html_())
+        # the page has the program's: the reply, and its samples
+        program("ensemble", "--a", "steel-sphere", "--b", "al-beam", *inputs, "--html", "e.html")
+        shown, page = data(Path("e.html").read_text(encoding="utf-8")), data(reply.to_html())
+        self.assertEqual((page["columns"], page["samples"]), (shown["columns"], shown["samples"]))
+        for name in page["reply"]:
+            if name != "timing":
+                self.assertEqual(page["reply"][name], shown["reply"][name], name)
+        nobody = percuss.Ensemble(percuss.Request(), question.inputs)
+        with self.assertRaisesRegex(ValueError, "an ensemble without an answer"):
+            percuss.ensemble(nobody, self.local).to_html()
         question.list_samples = False
         with self.assertRaisesRegex(ValueError, "list_samples: False"):
             percuss.ensemble(question, self.local).to_dataframe()

@@ -3,7 +3,9 @@
 """percuss.trace: of a daemon and in process, beside what the program writes."""
 
 import dataclasses
+import html
 import json
+import pickle
 import unittest
 from pathlib import Path
 from typing import Any
@@ -12,7 +14,7 @@ import numpy as np
 
 import percuss
 
-from beside import DOMAIN, Beside, program
+from beside import DOMAIN, SETTINGS, Beside, program
 
 
 class Beam(Beside):
@@ -69,7 +71,20 @@ class Traces(Beam):
                 one["trace"][0].pop("contact", None)
             for name in ("request", "bodies", "trace", "reply"):
                 self.assertEqual(found[name], expected[name], name)
+        # by the client that was asked; a notebook shows it in a frame, and of a copy elsewhere the tables
+        traced = percuss.trace(self.question(), self.local)
+        page = traced.to_html()
+        frame = page._repr_html_()
+        self.assertEqual(html.unescape(frame.split('srcdoc="')[1].split('"')[0]), page)
+        self.assertTrue(traced._repr_html_().endswith(frame) and frame.startswith('<iframe sandbox="allow-scripts"'))
+        copied = pickle.loads(pickle.dumps(traced))
+        self.assertEqual([body is None for body in data(copied.to_html())["bodies"]], [True, True])
+        with percuss.Local(settings=SETTINGS) as closed:
+            left = percuss.trace(self.question(), closed)
+        self.assertIn("histories", left._repr_html_())
+        self.assertNotIn("iframe", left._repr_html_())
         refused = percuss.trace(percuss.Request(), self.local)
+        self.assertNotIn("iframe", refused._repr_html_())
         with self.assertRaisesRegex(ValueError, "BAD_REQUEST"):
             refused.to_html(self.local)
 
