@@ -3,6 +3,8 @@
 """Pictures of results by matplotlib, where it is installed. Legends stand above the axes, where no data are."""
 
 from collections.abc import Sequence
+from functools import partial
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,16 +18,24 @@ if TYPE_CHECKING:
 _GREYS = ("#ececec", "#e0e0e0", "#d2d2d2", "#c4c4c4")
 
 
+def _png(figure: Any) -> bytes:
+    picture = BytesIO()
+    figure.savefig(picture, format="png")
+    return picture.getvalue()
+
+
 def _figure(given: Any, size: tuple[float, float]) -> Any:
     """A figure of its own, which a notebook shows and nothing else keeps, or the one that is given."""
     try:
-        # a notebook learns to show figures when pyplot comes
-        import matplotlib.pyplot  # noqa: F401
+        import matplotlib  # noqa: F401
         from matplotlib.figure import Figure
     except ImportError as missing:
         raise ImportError("plot needs matplotlib: pip install 'percuss[plot]'") from missing
     if given is None:
-        return Figure(figsize=size, layout="constrained")
+        figure = Figure(figsize=size, layout="constrained")
+        # a notebook has no form of its own for figures until pyplot has drawn one
+        setattr(figure, "_repr_png_", partial(_png, figure))
+        return figure
     if hasattr(given, "set_layout_engine"):
         given.set_layout_engine("constrained")
     return given
