@@ -104,7 +104,7 @@ const percent = (share, digits = 3) => `${number(100 * share, digits)} %`;
 const inputName = (one) => (one.body ? `${one.input}@${one.body}` : one.input);
 
 /* "0.1 to 0.2"; so few samples may not give both. */
-const interval = (low, high) => `${number(low, 4)} to ${number(high, 4)}`;
+const interval = (low, high) => [low, high].map((x) => (known(x) ? number(x, 4) : "?")).join(" to ");
 
 function ensembleRows(reply) {
   const e = reply.statistics[0], varies = e.standard_deviation > 0, last = e.quantiles.length - 1;
@@ -203,7 +203,7 @@ function showEnsemble(data) {
   showWarnings(reply.status, reply.message, reply.warnings);
   if (reply.statistics.length > 0) {
     showDistribution(parent, plots, reply.statistics[0]);
-    put(parent, "h2", "All quantities");
+    put(parent, "h2", "All quantities, in SI units");
     putTable(parent, ["quantity", "mean", "95 % confidence", "standard deviation", "lowest", "highest"],
       reply.statistics.filter((one) => one.count > 0).map((one) => [one.quantity, number(one.mean, 5),
         interval(one.mean_low, one.mean_high), number(one.standard_deviation, 4), number(one.lowest, 5), number(one.highest, 5)]));
