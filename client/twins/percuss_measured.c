@@ -26,33 +26,85 @@ static enum percuss_result percuss_measured_refuse(const struct measured_remarks
     return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s", text);
 }
 
+/* The texts of a member, each taken by `add`. */
+static enum percuss_result take_texts(const char *name, size_t count, const char *const *texts,
+                                      bool (*add)(struct column_map *map, const char *text,
+                                                  struct measured_fault *fault),
+                                      struct column_map *map)
+{
+    struct measured_fault fault;
+    if (count > 0 && !texts)
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s: NULL: a pointer is needed", name);
+    for (size_t i = 0; i < count; i++) {
+        if (!texts[i])
+            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s[%zu]: NULL: a pointer is needed",
+                              name, i);
+        if (!add(map, texts[i], &fault))
+            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s[%zu]: %s", name, i, fault.text);
+    }
+    return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result take_positive(const char *name, const char *unit, double value,
+                                         double *taken)
+{
+    if (!(value >= 0.0) || isinf(value))
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                          "%s: %g: %s > 0, or 0 where it is not said, is allowed", name, value,
+                          unit);
+    *taken = value;
+    return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result take_map(const struct percuss_measured_file *file,
+                                    struct column_map *map)
+{
+    enum percuss_result result =
+        take_texts("columns", file->column_count, file->columns, column_map_add, map);
+    if (result == PERCUSS_RESULT_OK)
+        result = take_texts("uncertainties", file->uncertainty_count, file->uncertainties,
+                            column_map_doubt, map);
+    if (result == PERCUSS_RESULT_OK)
+        result = take_positive("scale", "m", file->scale, &map->scale);
+    if (result == PERCUSS_RESULT_OK)
+        result = take_positive("rate", "Hz", file->rate, &map->rate);
+    if (result == PERCUSS_RESULT_OK)
+        result = take_positive("gravity", "m/s^2", file->gravity, &map->gravity);
+    return result;
+}
+
+enum percuss_result percuss_measured_read_file(const struct percuss_measured_file *file,
+                                               struct percuss_measured **measured)
+{
+    struct column_map map = {0};
+    if (measured)
+        *measured = NULL;
+    if (REPORT_NULL(file, measured))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
+    if (!file->file)
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "file: NULL: a pointer is needed");
+    enum percuss_result result = take_map(file, &map);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    struct percuss_measured *made = calloc(1, sizeof *made);
+    if (!made)
+        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: %s", file->file);
+    if (measured_read(file->file, &map, &made->set, &made->remarks)) {
+        *measured = made;
+        return PERCUSS_RESULT_OK;
+    }
+    result = percuss_measured_refuse(&made->remarks);
+    percuss_measured_free(made);
+    return result;
+}
+
 enum percuss_result percuss_measured_read(const char *file, size_t column_count,
                                           const char *const *columns,
                                           struct percuss_measured **measured)
 {
-    struct column_map map = {0};
-    struct measured_fault fault;
-    if (measured)
-        *measured = NULL;
-    if (REPORT_NULL(file, measured) || (column_count > 0 && REPORT_NULL(columns)))
-        return PERCUSS_RESULT_INVALID_ARGUMENT;
-    for (size_t i = 0; i < column_count; i++)
-        if (!columns[i])
-            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
-                              "columns[%zu]: NULL: a pointer is needed", i);
-    for (size_t i = 0; i < column_count; i++)
-        if (!column_map_add(&map, columns[i], &fault))
-            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "columns[%zu]: %s", i, fault.text);
-    struct percuss_measured *made = calloc(1, sizeof *made);
-    if (!made)
-        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: %s", file);
-    if (measured_read(file, &map, &made->set, &made->remarks)) {
-        *measured = made;
-        return PERCUSS_RESULT_OK;
-    }
-    enum percuss_result result = percuss_measured_refuse(&made->remarks);
-    percuss_measured_free(made);
-    return result;
+    const struct percuss_measured_file asked = {
+        .file = file, .column_count = column_count, .columns = columns};
+    return percuss_measured_read_file(&asked, measured);
 }
 
 /* The numbers of an impact, and of which they must be. */
@@ -81,6 +133,26 @@ static const struct {
 };
 enum { NUMBER_COUNT = sizeof NUMBERS / sizeof NUMBERS[0] };
 
+/* The interval of a restitution that is stated. */
+static enum percuss_result take_interval(size_t index, const struct percuss_measured_impact *given,
+                                         struct measured_impact *impact)
+{
+    const double half = given->restitution_half_width;
+    if (half < 0.0 || isinf(half))
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                          "impacts[%zu].restitution_half_width: %g: a number > 0, or 0 or NAN "
+                          "where it is not known, is allowed",
+                          index, half);
+    if (half > 0.0 && isnan(impact->restitution))
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                          "impacts[%zu].restitution_half_width: %g: must be 0 or NAN where the "
+                          "restitution is unknown",
+                          index, half);
+    if (half > 0.0)
+        impact->doubt = half / (1.0 + impact->restitution);
+    return PERCUSS_RESULT_OK;
+}
+
 static enum percuss_result take(size_t index, const struct percuss_measured_impact *given,
                                 struct measured_impact *impact, struct measured_remarks *remarks)
 {
@@ -104,7 +176,7 @@ static enum percuss_result take(size_t index, const struct percuss_measured_impa
     if (isnan(impact->restitution) && isnan(impact->impulse))
         return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                           "impacts[%zu].restitution: unknown: it or the impulse is needed", index);
-    return PERCUSS_RESULT_OK;
+    return take_interval(index, given, impact);
 }
 
 enum percuss_result percuss_measured_create(size_t count,
@@ -173,6 +245,7 @@ static struct percuss_measured_impact give(const struct measured_impact *impact)
     for (size_t i = 0; i < NUMBER_COUNT; i++)
         *(double *)((char *)&given + NUMBERS[i].public_offset) =
             *(const double *)((const char *)impact + NUMBERS[i].offset);
+    given.restitution_half_width = measured_half_width(impact);
     return given;
 }
 

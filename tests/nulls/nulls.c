@@ -96,6 +96,7 @@ static double now(void *context)
 
 static const struct percuss_slow_body BODIES[] = {{.id = "steel-sphere"}, {.id = "al-rod"}};
 static const char *const COLUMNS[] = {"speed=v"};
+static const struct percuss_measured_file FILE_OF_IMPACTS = {.file = "nothing"};
 static const struct percuss_measured_impact IMPACT = {.speed = 0.3, .restitution = 0.5};
 
 /* Arguments. */
@@ -180,6 +181,7 @@ static struct {
 /* only one that is asked for could be given, in a callback */
 #define VALID_struct_percuss_ensemble_sharing_p                                                    \
     ((struct percuss_ensemble_sharing *)(void *)valid.octets)
+#define VALID_const_struct_percuss_measured_file_p     (&FILE_OF_IMPACTS)
 #define VALID_const_struct_percuss_measured_impact_p   (&IMPACT)
 #define VALID_const_struct_percuss_measured_p          valid.measured
 #define VALID_struct_percuss_measured_p_p              (&made.measured)
@@ -395,6 +397,10 @@ static void call_with_members(void)
         called = "percuss_measured_read";
         begin("columns[1]");
         end(false, true, FIND(percuss_measured_read)("nothing", 2, none, &made.measured));
+        called = "percuss_measured_read_file";
+        begin("uncertainties");
+        const struct percuss_measured_file file = {.file = "nothing", .uncertainty_count = 1};
+        end(false, true, FIND(percuss_measured_read_file)(&file, &made.measured));
         called = "percuss_measured_compare";
         begin("client");
         valid.question.client = NULL;

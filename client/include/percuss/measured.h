@@ -22,6 +22,21 @@ struct percuss_measured_impact {
     double second_start; /* of the second sub-impact of at least 1 % of the impulse, after the
                             start of the first */
     double at;           /* place along a beam, 0..1; NAN: that of the question */
+    double restitution_half_width; /* of the 95 % interval of a restitution that was measured; 0 or
+                                      NAN: not known */
+};
+
+/* A file as percuss compare reads it, with the same options. A member that is 0 is not said. */
+struct percuss_measured_file {
+    const char *file;
+    size_t column_count;
+    const char *const *columns; /* each as --column: "NAME=HEADING[:UNIT]" */
+    size_t uncertainty_count;
+    const char *const *uncertainties; /* each as --uncertainty: "NAME=VALUE", half of the 95 %
+                                         interval of each number of a column */
+    double scale;                     /* m of a pixel */
+    double rate;                      /* frames or readings a second, Hz */
+    double gravity;                   /* m/s^2 */
 };
 
 /* Impacts of one pair of bodies; opaque. */
@@ -92,9 +107,11 @@ struct percuss_calibration {
 extern "C" {
 #endif
 
-/* Reads a file as percuss compare does, with so many of its --column, each "NAME=HEADING[:UNIT]",
- * or takes over so many impacts: each needs a speed, and a restitution or an impulse.
- * INVALID_ARGUMENT names lines or index, values and the allowed ones. To be freed. */
+/* Reads a file, or one of which no more than its columns is said, or takes over so many impacts:
+ * each needs a speed, and a restitution or an impulse. INVALID_ARGUMENT names member, lines or
+ * index, values and the allowed ones. To be freed. */
+PERCUSS_API enum percuss_result percuss_measured_read_file(const struct percuss_measured_file *file,
+                                                           struct percuss_measured **measured);
 PERCUSS_API enum percuss_result percuss_measured_read(const char *file, size_t column_count,
                                                       const char *const *columns,
                                                       struct percuss_measured **measured);

@@ -24,6 +24,20 @@ class Impact(ctypes.Structure):
         ("first_duration", c_double),
         ("second_start", c_double),
         ("at", c_double),
+        ("restitution_half_width", c_double),
+    ]
+
+
+class File(ctypes.Structure):
+    _fields_ = [
+        ("file", c_char_p),
+        ("column_count", c_size_t),
+        ("columns", POINTER(c_char_p)),
+        ("uncertainty_count", c_size_t),
+        ("uncertainties", POINTER(c_char_p)),
+        ("scale", c_double),
+        ("rate", c_double),
+        ("gravity", c_double),
     ]
 
 
@@ -97,6 +111,7 @@ class Calibration(ctypes.Structure):
 # the C struct behind each class
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_measured_impact": Impact,
+    "percuss_measured_file": File,
     "percuss_measured_question": Question,
     "percuss_measured_twin": Twin,
     "percuss_measured_distance": Distance,
@@ -109,6 +124,7 @@ _Measured, _Body = c_void_p, POINTER(_server_abi.Body)
 
 FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("measured_read", c_int, [c_char_p, c_size_t, POINTER(c_char_p), POINTER(_Measured)]),
+    ("measured_read_file", c_int, [POINTER(File), POINTER(_Measured)]),
     ("measured_create", c_int, [c_size_t, POINTER(Impact), POINTER(_Measured)]),
     ("measured_note", c_char_p, [_Measured, c_size_t]),
     ("measured_free", None, [_Measured]),

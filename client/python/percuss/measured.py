@@ -10,8 +10,8 @@
     print(found.parameters[0].value, found.parameters[0].low, found.parameters[0].high)
 
 Measurements are a file as `percuss compare` reads it, or columns by their names: a mapping, a pandas.DataFrame or
-Comparison.measured, with any of speed, restitution, impulse, sub_impacts, first_impulse, first_duration, second_start, at. SI units; nan: not
-known.
+Comparison.measured, with any of speed, restitution, impulse, sub_impacts, first_impulse, first_duration, second_start,
+at, restitution_half_width. SI units; nan: not known.
 """
 
 from __future__ import annotations
@@ -67,6 +67,8 @@ class Impacts:
     """Of the second sub-impact of at least 1 % of the impulse, after the start of the first, s."""
     at: FloatArray
     """Place along a beam, 0..1."""
+    restitution_half_width: FloatArray
+    """Of the 95 % interval of a restitution that was measured."""
 
 
 _COLUMNS = tuple(one.name for one in fields(Impacts))
@@ -112,7 +114,8 @@ class Comparison:
         told = ("restitution", "impulse", "sub_impacts", "first_impulse", "first_duration", "second_start")
         columns = {name: getattr(self.measured, name) for name in ("speed", "at", *told)}
         columns.update({f"simulated_{name}": getattr(self.simulated, name) for name in told})
-        return _tables.frame({**columns, "residual": self.residual})
+        intervals = {"restitution_half_width": self.measured.restitution_half_width}
+        return _tables.frame({**columns, "residual": self.residual, **intervals})
 
     def plot(self, figure: Any = None) -> Any:
         """Draws every impact beside its twin, their numbers of sub-impacts, both distributions.
@@ -214,16 +217,57 @@ def _columns(source: Any) -> Any:
     return (abi.Impact * len(table)).from_buffer_copy(table.tobytes()) if len(table) else (abi.Impact * 0)()
 
 
+def _texts(named: Mapping[str, str | float]) -> Any:
+    """NAME=VALUE of each, as the command line takes them."""
+    texts = [f"{name}={value}".encode() for name, value in named.items()]
+    return (ctypes.c_char_p * len(texts))(*texts)
+
+
+@dataclass(frozen=True)
+class _Said:
+    """Of a file, besides its text; as percuss compare takes it."""
+
+    columns: Mapping[str, str] | None = None
+    uncertainty: Mapping[str, float | str] | None = None
+    scale: float | str | None = None
+    rate: float | str | None = None
+    gravity: float | str | None = None
+
+    def write(self, file: str | os.PathLike[str]) -> abi.File:
+        columns, doubts = _texts(self.columns or {}), _texts(self.uncertainty or {})
+        numbers = {
+            name: _positive(name, value, quantity)
+            for name, value, quantity in (
+                ("scale", self.scale, "length"),
+                ("rate", self.rate, "frequency"),
+                ("gravity", self.gravity, "acceleration"),
+            )
+            if value is not None
+        }
+        return abi.File(os.fsencode(file), len(columns), columns, len(doubts), doubts, **numbers)
+
+    def refuse(self) -> None:
+        """Of measurements that are no file."""
+        given = [one.name for one in fields(self) if getattr(self, one.name) not in (None, {})]
+        if given:
+            raise ValueError(f"{', '.join(given)}: for a file; these measurements have their names and are in SI units")
+
+
+def _positive(name: str, value: float | str, quantity: str) -> float:
+    taken = _convert.number(name, value, quantity)
+    # the library takes 0 as not said
+    if taken == 0:
+        raise ValueError(f"{name}: {value!r}: a number > 0 is allowed")
+    return taken
+
+
 @contextmanager
-def _taken(source: Source, named: Mapping[str, str] | None) -> Iterator[ctypes.c_void_p]:
+def _taken(source: Source, said: _Said) -> Iterator[ctypes.c_void_p]:
     handle = ctypes.c_void_p()
     if isinstance(source, (str, os.PathLike)):
-        texts = [f"{name}={heading}".encode() for name, heading in (named or {}).items()]
-        columns = (ctypes.c_char_p * len(texts))(*texts)
-        _check(_library.percuss_measured_read(os.fsencode(source), len(texts), columns, ctypes.byref(handle)))
+        _check(_library.percuss_measured_read_file(ctypes.byref(said.write(source)), ctypes.byref(handle)))
     else:
-        if named:
-            raise ValueError("columns: a mapping is for a file; these measurements have their names")
+        said.refuse()
         impacts = _columns(source)
         _check(_library.percuss_measured_create(len(impacts), impacts, ctypes.byref(handle)))
     try:
@@ -274,17 +318,23 @@ def compare(
     options: Options | None = None,
     at: float | str | None = None,
     columns: Mapping[str, str] | None = None,
+    uncertainty: Mapping[str, float | str] | None = None,
+    scale: float | str | None = None,
+    rate: float | str | None = None,
+    gravity: float | str | None = None,
     permutations: int = 1999,
     seed: int = 1,
     timeout: float = 60.0,
 ) -> Comparison:
     """Puts measured impacts of a on b beside their twins. at: place where an impact has none, as of
-    contact_pair. columns: what a file calls them, as {"speed": "v:mm/s"}. permutations, seed: behind the p-value of the energy distance. timeout: s for 64 impacts. InvalidArgument names
-    line or index, value and what is allowed, or what a twin was refused for."""
+    contact_pair. columns: what a file calls them, as {"speed": "v:mm/s"}. uncertainty: half of the 95 % interval of each
+    number of a column, as {"rebound": "2 mm"}. scale: of a pixel, m; rate: frames or readings a second, Hz; gravity:
+    m/s^2; or texts with units. permutations, seed: behind the p-value of the energy distance. timeout: s for 64 impacts.
+    InvalidArgument names line or index, value and what is allowed, or what a twin was refused for."""
     asked = _ask(a, b, client, options, at, timeout)
     asked.question.permutations, asked.question.seed = permutations, seed
     answer = abi.Comparison()
-    with _taken(source, columns) as handle:
+    with _taken(source, _Said(columns, uncertainty, scale, rate, gravity)) as handle:
         notes = _notes(handle)
         code: int = _library.percuss_measured_compare(handle, ctypes.byref(asked.question), ctypes.byref(answer))
     client._settle()
@@ -327,6 +377,9 @@ def calibrate(
     options: Options | None = None,
     at: float | str | None = None,
     columns: Mapping[str, str] | None = None,
+    scale: float | str | None = None,
+    rate: float | str | None = None,
+    gravity: float | str | None = None,
     noise: float = 0.01,
     timeout: float = 60.0,
 ) -> Calibration:
@@ -337,7 +390,7 @@ def calibrate(
     asked = _ask(a, b, client, options, at, timeout)
     asked.question.noise = noise
     answer = _write_fit(fit)
-    with _taken(source, columns) as handle:
+    with _taken(source, _Said(columns, None, scale, rate, gravity)) as handle:
         notes = _notes(handle)
         code: int = _library.percuss_measured_calibrate(handle, ctypes.byref(asked.question), ctypes.byref(answer))
     client._settle()

@@ -22,8 +22,8 @@ PAIR = ("--a", "steel-sphere", "--b", "al-beam")
 TOLD = ("restitution", "impulse", "sub_impacts", "first_impulse", "first_duration", "second_start")
 
 
-def told(*arguments: str) -> Any:
-    return json.loads(program(*arguments, *PAIR, "--json", check=False))
+def told(*arguments: str, pair: tuple[str, ...] = PAIR) -> Any:
+    return json.loads(program(*arguments, *pair, "--json", check=False))
 
 
 def known(number: float) -> float | None:
@@ -48,6 +48,7 @@ class Compare(Beside):
         for i, impact in enumerate(expected["impacts"]):
             self.assertEqual(known(ours.measured.speed[i]), impact["speed"])
             self.assertEqual(known(ours.measured.at[i]), impact["at"])
+            self.assertEqual(known(ours.measured.restitution_half_width[i]), impact["restitution_half_width"])
             for side in ("measured", "simulated"):
                 row = {name: known(getattr(getattr(ours, side), name)[i]) for name in TOLD}
                 self.assertEqual(row, impact[side])
@@ -61,6 +62,52 @@ class Compare(Beside):
                     DATA / file, "steel-sphere", "al-beam", client, permutations=999, seed=7, timeout=60.0
                 )
                 self.assert_as(ours, expected)
+
+    def test_rigs_as_the_program(self) -> None:
+        """Heights with their uncertainties; pixels and frames, and gravity: as texts and as numbers."""
+        ball, wall = "steel-sphere", "steel-wall"
+        pair = ("--a", ball, "--b", wall)
+        heights = DATA / "synthetic-heights.csv"
+        doubts = ("--uncertainty", "drop=1mm", "--uncertainty", "rebound=2mm")
+        expected = told("compare", str(heights), *doubts, "--gravity", "9.81", pair=pair)
+        for uncertainty in ({"drop": "1mm", "rebound": "2 mm"}, {"drop": 1e-3, "rebound": np.float64(2e-3)}):
+            ours = measured.compare(heights, ball, wall, self.local, uncertainty=uncertainty, gravity=9.81)
+            self.assert_as(ours, expected)
+        self.assertTrue(all(0.0 < half < 0.02 for half in ours.measured.restitution_half_width))
+        # they come back with the impacts
+        again = measured.compare(ours.measured, ball, wall, self.local)
+        np.testing.assert_allclose(
+            again.measured.restitution_half_width, ours.measured.restitution_half_width, rtol=1e-12
+        )
+        self.assertEqual(
+            ours.to_dataframe()["restitution_half_width"].tolist(), ours.measured.restitution_half_width.tolist()
+        )
+        camera = DATA / "synthetic-camera.csv"
+        columns = {"time": "frame:frame", "displacement_a": "y:px"}
+        options = [f"--column={name}={heading}" for name, heading in columns.items()]
+        expected = told("compare", str(camera), *options, "--scale=0.12mm", "--rate=240", "--gravity=1g", pair=pair)
+        for scale, rate, gravity in (("0.12 mm", "240 Hz", "1 g"), (0.12e-3, 240, 9.80665)):
+            self.assert_as(
+                measured.compare(
+                    camera, ball, wall, self.local, columns=columns, scale=scale, rate=rate, gravity=gravity
+                ),
+                expected,
+            )
+
+    def test_what_is_said_of_files(self) -> None:
+        camera = DATA / "synthetic-camera.csv"
+        plain = {"speed": [0.2], "restitution": [0.5]}
+        cases: list[tuple[Any, dict[str, Any], type[Exception], str]] = [
+            (camera, {"scale": "3 s"}, percuss.InvalidArgument, "scale: .*3 s"),
+            (camera, {"rate": 0}, ValueError, "rate: 0: a number > 0 is allowed"),
+            (camera, {"gravity": -9.81}, percuss.InvalidArgument, r"gravity: -9.81: m/s\^2 > 0"),
+            (camera, {"uncertainty": {"colour": 1}}, percuss.InvalidArgument, r"uncertainties\[0\]: 'colour=1'"),
+            (plain, {"scale": 1, "uncertainty": {"speed": 1}}, ValueError, "uncertainty, scale: for a file"),
+            (plain, {"rate": 0}, ValueError, "rate: for a file"),
+        ]
+        for source, said, kind, message in cases:
+            with self.subTest(message), self.assertRaisesRegex(kind, message):
+                measured.compare(source, *self.pair(), self.local, **said)
 
     def test_columns(self) -> None:
         """What a file says, as arrays and as a frame."""
@@ -106,7 +153,7 @@ class Compare(Beside):
             measured.compare("bad.csv", "steel-sphere", "al-beam", self.local)
         with self.assertRaisesRegex(percuss.InvalidArgument, r"columns\[0\]: .*colour"):
             measured.compare("rig.csv", "steel-sphere", "al-beam", self.local, columns={"colour": "v"})
-        with self.assertRaisesRegex(ValueError, "columns: a mapping is for a file"):
+        with self.assertRaisesRegex(ValueError, "columns: for a file; these measurements"):
             measured.compare(plain, "steel-sphere", "al-beam", self.local, columns=columns)
 
     def test_mistakes(self) -> None:

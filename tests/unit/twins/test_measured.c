@@ -13,6 +13,7 @@
 
 #define CATALOGUE PERCUSS_SOURCE_DIR "/config/catalogue.yaml"
 #define BEAM      PERCUSS_SOURCE_DIR "/client/examples/measured/synthetic-beam.csv"
+#define CAMERA    PERCUSS_SOURCE_DIR "/client/examples/measured/synthetic-camera.csv"
 
 /* The steel sphere on a body of the catalogue. */
 struct rig {
@@ -40,7 +41,7 @@ static void rig_close(struct rig *rig)
     percuss_client_free(rig->client);
 }
 
-static const struct percuss_measured_impact UNKNOWN = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+static const struct percuss_measured_impact UNKNOWN = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 
 static struct percuss_measured_impact impact_of(double speed, double restitution)
 {
@@ -83,6 +84,59 @@ static void test_impacts_are_checked(void **state)
                      PERCUSS_RESULT_INVALID_ARGUMENT);
     says("none.csv");
     assert_null(measured);
+}
+
+/* Of a file, and with INVALID_ARGUMENT. */
+static void refuses_file(struct percuss_measured_file file, const char *expected)
+{
+    struct percuss_measured *measured = (struct percuss_measured *)&measured;
+    file.file = CAMERA;
+    assert_int_equal(percuss_measured_read_file(&file, &measured), PERCUSS_RESULT_INVALID_ARGUMENT);
+    says(expected);
+    assert_null(measured);
+}
+
+static void test_what_is_said_of_a_file_is_checked(void **state)
+{
+    static const char *const wrong[] = {"drop=1mm", "colour=1"};
+    (void)state;
+    refuses_file((struct percuss_measured_file){.scale = -1.0},
+                 "scale: -1: m > 0, or 0 where it is not said, is allowed");
+    refuses_file((struct percuss_measured_file){.rate = NAN}, "rate: nan: Hz > 0");
+    refuses_file((struct percuss_measured_file){.gravity = INFINITY}, "gravity: inf: m/s^2 > 0");
+    refuses_file((struct percuss_measured_file){.uncertainty_count = 2, .uncertainties = wrong},
+                 "uncertainties[1]: 'colour=1': NAME=VALUE is needed");
+    refuses_file((struct percuss_measured_file){.column_count = 1}, "columns: NULL");
+}
+
+static void test_an_interval_comes_back_with_its_impact(void **state)
+{
+    struct rig rig = rig_open("al-rod");
+    struct percuss_measured *measured;
+    struct percuss_comparison comparison;
+    struct percuss_measured_impact impacts[2] = {impact_of(0.1, 0.7), impact_of(0.3, NAN)};
+    (void)state;
+    impacts[1].impulse = 0.02;
+    impacts[1].restitution_half_width = 0.01;
+    assert_int_equal(percuss_measured_create(2, impacts, &measured),
+                     PERCUSS_RESULT_INVALID_ARGUMENT);
+    says("impacts[1].restitution_half_width: 0.01: must be 0 or NAN where the restitution is "
+         "unknown");
+    impacts[1].restitution_half_width = 0.0;
+    impacts[0].restitution_half_width = -0.01;
+    assert_int_equal(percuss_measured_create(2, impacts, &measured),
+                     PERCUSS_RESULT_INVALID_ARGUMENT);
+    says("impacts[0].restitution_half_width: -0.01: a number > 0");
+    impacts[0].restitution_half_width = 0.01;
+    assert_int_equal(percuss_measured_create(2, impacts, &measured), PERCUSS_RESULT_OK);
+    assert_int_equal(percuss_measured_compare(measured, &rig.question, &comparison),
+                     PERCUSS_RESULT_OK);
+    assert_true(fabs(comparison.impacts[0].measured.restitution_half_width - 0.01) < 1e-15);
+    assert_true(isnan(comparison.impacts[1].measured.restitution_half_width));
+    assert_true(isnan(comparison.impacts[0].simulated.restitution_half_width));
+    percuss_comparison_free(&comparison);
+    percuss_measured_free(measured);
+    rig_close(&rig);
 }
 
 static void test_twins_are_what_the_client_answers(void **state)
@@ -195,6 +249,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_impacts_are_checked),
+        cmocka_unit_test(test_what_is_said_of_a_file_is_checked),
+        cmocka_unit_test(test_an_interval_comes_back_with_its_impact),
         cmocka_unit_test(test_twins_are_what_the_client_answers),
         cmocka_unit_test(test_questions_are_checked),
         cmocka_unit_test(test_a_modulus_is_found_again),
