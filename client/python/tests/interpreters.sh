@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Every CPython that is found, on the PATH and of pyenv: pip installs the package into an empty environment with the
-# newest numpy, the first Python that is allowed also with the oldest one, and the tests that need nothing else pass;
-# a Python that is too old is refused by pip. Started by run.sh.
+# newest numpy, the first Python that is allowed also with the oldest one, and tests that need nothing else pass, more of
+# them with the oldest and the newest Python; one that is too old is refused by pip. Started by run.sh.
 set -eu
 package=$PERCUSS_SOURCE/client/python
 export PIP_DISABLE_PIP_VERSION_CHECK=1
@@ -19,22 +19,14 @@ oldest() {
     esac
 }
 
-# found: "MINOR PROGRAM" a line, each version of CPython 3 once
-found() {
-    for program in $(command -v python3 || true) $(IFS=: && for folder in $PATH; do ls "$folder"/python3.*; done 2>/dev/null) \
-        "${PYENV_ROOT:-$HOME/.pyenv}"/versions/*/bin/python3; do
-        # a script of pyenv's in a version's place fails; so does a python3.11-config
-        "$program" -c 'import sys, venv, ensurepip
-sys.implementation.name == "cpython" and print(sys.version_info[1], sys.argv[1])' "$program" 2>/dev/null || continue
-    done | sort -n -u -k 1,1
-}
+. "$package/tests/pythons.sh"
 
-# install ARGUMENT...: the package into an empty environment; an index may be away for a moment
+# install FOLDER [NUMPY]: the package into an empty environment; an index may be away for a moment
 install() {
     rm -rf venv
     "$python" -m venv venv
     for pause in 5 15 0; do
-        venv/bin/pip install --only-binary numpy "$@" "$package" >log 2>&1 </dev/null && return
+        venv/bin/pip install --only-binary numpy "$@" >log 2>&1 </dev/null && return
         sleep "$pause"
     done
     cat log >&2
@@ -93,6 +85,7 @@ answered() {
 least=$(sed -n 's/^requires-python = ">=3\.\([0-9]*\)"$/\1/p' "$package/pyproject.toml")
 count=0
 found >pythons
+newest=$(sed -n '$s/ .*//p' pythons)
 while read -r minor python; do
     [ "$minor" -ge 8 ] || continue # no pip so old knows how an index answers today
     if [ "$minor" -lt "$least" ]; then
@@ -108,11 +101,15 @@ while read -r minor python; do
     fi
     old=$(oldest "$minor")
     if [ "$count" -eq 0 ] && [ "$old" ]; then
-        install "numpy ==$old"
+        install "$package" "numpy ==$old"
         answered traces
     fi
-    install
-    answered traces slowscale client
+    # at the root of the tree it is the same
+    install "$PERCUSS_SOURCE"
+    case $count,$minor in
+    0,* | *,"$newest") answered traces slowscale client ;;
+    *) answered traces ;;
+    esac
     count=$((count + 1))
 done <pythons
 [ "$count" -ge 1 ]

@@ -4,7 +4,7 @@
 
 # A wheel with the libraries inside, in an empty environment: it asks in process, with the shipped catalogue and
 # tables, and the daemon over DDS, and takes nothing from elsewhere; so does the program percuss, before numpy is there.
-# Started by run.sh.
+# The oldest and the newest CPython take the same wheel and compile each of its modules. Started by run.sh.
 set -eu
 PYTHON=$PERCUSS_VENV/bin/python sh "$PERCUSS_SOURCE/deploy/wheel.sh" "$PERCUSS_BUILD" "$PWD/wheels" >log
 wheel=$(cat log)
@@ -29,6 +29,20 @@ export PIP_DISABLE_PIP_VERSION_CHECK=1
     empty/bin/percuss query --local --a steel-sphere --b al-rod-1 --speed 0.2 --contact-model table >answer
     ! ldd empty/lib/python3.*/site-packages/percuss/bin/percuss | grep -E 'not found|lib(percuss|ddsc|jansson).* => /(usr/)?lib'
 )
+# the tag says any Python 3, and requires-python which: the wheel's own program starts by each
+. "$PERCUSS_SOURCE/client/python/tests/pythons.sh"
+least=$(sed -n 's/^requires-python = ">=3\.\([0-9]*\)"$/\1/p' "$PERCUSS_SOURCE/client/python/pyproject.toml")
+found | awk -v least="$least" '$1 >= least' | sed '1!{$!d}' >pythons
+while read -r minor python; do
+    rm -rf other
+    "$python" -m venv --without-pip other
+    "$pip" --python other/bin/python install --no-index --no-deps "$wheel" >>log </dev/null
+    other/bin/python -W error -m compileall -q -f other/lib/python3.*/site-packages/percuss
+    env -u PERCUSS_LIBRARY -u PYTHONPATH -u LD_LIBRARY_PATH other/bin/percuss query --local --a steel-sphere --b al-beam \
+        --speed 0.2 --json >answer
+    grep -q '"restitution": 0.73936' answer
+    echo "CPython 3.$minor takes the wheel"
+done <pythons
 # what else it needs comes from an index, which may be away for a moment
 for pause in 5 15 0; do
     "$pip" install numpy >>log 2>&1 && break
