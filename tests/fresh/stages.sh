@@ -151,18 +151,26 @@ stage_sanitize() {
     inside sh tests/sanitize.sh address -R '^unit/' || fail "sh tests/sanitize.sh address"
 }
 
+make_wheel() {
+    [ -e "$work/wheels" ] || sh deploy/wheel.sh build "$work/wheels" >>"$log" 2>&1 || fail "sh deploy/wheel.sh build"
+}
+
 # PERCUSS_WAYS: which; each in a root of its own, as what one installs another would find. Printed line by line
 stage_newcomer() {
-    make_packages
-    sh deploy/wheel.sh build "$work/wheels" >>"$log" 2>&1 || fail "sh deploy/wheel.sh build"
     echo '| way | installed in | on disk | first own answer after | lines written | answer |'
-    for way in ${PERCUSS_WAYS:-source packages wheel mujoco fmpy gmsh}; do
-        make_root
+    for way in ${PERCUSS_WAYS:-source packages wheel rig author simulation mujoco fmpy gmsh}; do
         case $way in
-        packages | fmpy) given=$work/packages ;;
-        wheel) given=$(find "$work/wheels" -name '*.whl') ;;
+        packages | fmpy)
+            make_packages
+            given=$work/packages
+            ;;
+        wheel | rig | simulation)
+            make_wheel
+            given=$(find "$work/wheels" -name '*.whl')
+            ;;
         *) given= ;;
         esac
+        make_root
         [ -z "$given" ] || { mkdir "$root/given" && cp -r "$given" "$root/given"; }
         inside sh tests/fresh/newcomer.sh "$way" ${given:+"/given/${given##*/}"} || fail "newcomer: $way"
         sed -n 's/^newcomer |/|/p' "$log" | tail -n 1
