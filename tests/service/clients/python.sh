@@ -63,7 +63,7 @@ prints "^al-rod  *0\.6"
 say "an engine of twenty lines: impacts, one question each"
 snippet 5
 expect 0 python snippet.py
-prints "s: 0\.31[34] m/s, e = 0\.66"
+prints "s: 0\.31[34] m/s, e = 0\.67"
 awk '/ e = / { n++ } /^Counts/ { exit index($0, "impacts=" n ", requests=" n ",") == 0 }' "$out" || fail "counts"
 grep -c " e = " "$out" | grep -qx '[3-9]' || fail "not some impacts"
 
