@@ -31,11 +31,12 @@ static void print_bullet(FILE *file, const struct engine_case *engine_case,
             fit->restitution, 0.5 * engine_case->points[0].speed);
 }
 
-/* gn is multiplied by the mass m1 m2 / (m1 + m2) of the bodies there, wherever they touch. */
+/* gn is multiplied there by the mass m1 m2 / (m1 + m2) of the bodies, wherever they touch; that is
+ * the effective mass of a blow through both centres. */
 static void print_chrono(FILE *file, const struct engine_case *engine_case,
                          const struct engine_fit *fit)
 {
-    double reduced = 1.0 / (1.0 / engine_case->masses[0] + 1.0 / engine_case->masses[1]);
+    (void)engine_case;
     fprintf(file,
             "// of both bodies alike\n"
             "auto rigid = chrono_types::make_shared<ChContactMaterialNSC>();\n"
@@ -45,8 +46,8 @@ static void print_chrono(FILE *file, const struct engine_case *engine_case,
             "system.SetContactForceModel(ChSystemSMC::Hooke);\n"
             "auto smooth = chrono_types::make_shared<ChContactMaterialSMC>();\n"
             "smooth->SetKn(%.8gf);  // N/m\n"
-            "smooth->SetGn(%.8gf);  // 1/s\n",
-            fit->restitution, fit->step, fit->stiffness, fit->damping / reduced);
+            "smooth->SetGn(%.8gf);  // 1/s, for bodies with m1 m2 / (m1 + m2) = %.6g kg\n",
+            fit->restitution, fit->step, fit->stiffness, fit->damping / fit->mass, fit->mass);
 }
 
 /* Stiffnesses in series: each body has twice that of the pair, and then the pair has the bodies'
@@ -120,7 +121,7 @@ const char *engine_name(unsigned i)
     return engines[i].name;
 }
 
-/* A line of the comment; -- must not be in one of XML. */
+/* A line of the comment. */
 #define COMMENT(file, engine, format, ...)                                                         \
     fprintf(file, "%s " format "%s\n", (engine)->comment, __VA_ARGS__, (engine)->comment_end)
 
@@ -136,10 +137,23 @@ static void print_points(FILE *file, const struct engine *engine,
     }
 }
 
+/* Without two hyphens in a row, which end a comment of XML. */
+static void print_title(FILE *file, const struct engine *engine,
+                        const struct engine_case *engine_case)
+{
+    fprintf(file, "%s percuss %s: ", engine->comment, engine_case->version);
+    for (const char *c = engine_case->title; *c; c++) {
+        fputc(*c, file);
+        if (c[0] == '-' && c[1] == '-')
+            fputc(' ', file);
+    }
+    fprintf(file, "%s\n", engine->comment_end);
+}
+
 void engine_print(FILE *file, const struct engine *engine, const struct engine_case *engine_case,
                   const struct engine_fit *fit)
 {
-    COMMENT(file, engine, "percuss %s: %s", engine_case->version, engine_case->title);
+    print_title(file, engine, engine_case);
     COMMENT(file, engine, "for %s: %s", engine->name, engine->model);
     print_points(file, engine, engine_case);
     COMMENT(file, engine,

@@ -11,10 +11,9 @@
 
 /* What the parameters are for. */
 struct engine_case {
-    const char *title;    /* the bodies, one line */
-    const char *version;  /* of percuss */
-    const double *masses; /* of both bodies, kg; INFINITY: held */
-    double step;          /* of the simulator's time as it was given, s; 0: any */
+    const char *title;   /* the bodies, one line */
+    const char *version; /* of percuss */
+    double step;         /* of the simulator's time as it was given, s; 0: any */
     struct engine_point *points;
     size_t count;
 };

@@ -26,8 +26,7 @@ struct export
     double low, high, step; /* m/s; s, 0: any */
     size_t count;           /* 0: no --speed */
     struct tally warnings;
-    double mass;      /* effective, kg */
-    double masses[2]; /* of the bodies, kg */
+    double mass; /* effective, kg */
     struct scene_text text;
     struct engine_point points[MOST_POINTS];
 };
@@ -63,6 +62,8 @@ static void parse_speeds(const char *text, struct export *export, struct argp_st
     export->low = numbers[0];
     export->high = numbers[1];
     export->count = second ? parse_count("speed", second + 1, MOST_POINTS, state) : POINTS;
+    if (export->count < 2)
+        argp_error(state, "--speed: '%s': N of 2..%d is needed", text, MOST_POINTS);
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -133,6 +134,10 @@ static int take_point(struct export *export, double speed, const struct percuss_
         complain("at %g m/s: %s: %s", speed, percuss_status_name(reply->status), reply->message);
         return code > EXIT_ANSWERED_WITH_WARNING ? code : EXIT_REJECTED;
     }
+    if (!reply->complete) {
+        complain("at %g m/s: the restitution is not final: %s", speed, reply->message);
+        return EXIT_REJECTED;
+    }
     const struct percuss_contact_result *contact = &reply->contacts[0];
     const struct percuss_sub_impact *main = main_sub_impact(contact);
     if (!main) {
@@ -149,15 +154,6 @@ static int take_point(struct export *export, double speed, const struct percuss_
                                               .duration = main->end - main->start};
     export->mass = 1.0 / contact->inverse_effective_mass;
     return EXIT_ANSWERED;
-}
-
-/* A held body has no mass of its own there. */
-static double free_mass(const struct percuss_body *body)
-{
-    for (int end = 0; end < 2; end++)
-        if (body->supports[end] != PERCUSS_SUPPORT_FREE)
-            return INFINITY;
-    return body->mass;
 }
 
 /* The answers at all speeds. Exit code; complains. */
@@ -183,11 +179,8 @@ static int ask_all(struct export *export, struct percuss_client *client)
             scene_explain_unknown(common, client, &request, &bodies.list);
         percuss_reply_free(&reply);
     }
-    if (code == EXIT_ANSWERED) {
-        export->masses[0] = free_mass(bodies.pair.a);
-        export->masses[1] = free_mass(bodies.pair.b);
+    if (code == EXIT_ANSWERED)
         export->text = scene_describe(&export->scene, &bodies);
-    }
     percuss_body_list_free(&bodies.list);
     return code;
 }
@@ -221,17 +214,16 @@ static void print_json(const struct export *export, const struct engine_fit *fit
 /* Exit code; complains. */
 static int put_out(struct export *export)
 {
-    double middle = 0.0;
-    for (size_t i = 0; i < export->count; i++)
-        middle += export->points[i].restitution / (double)export->count;
-    if (!(middle > 0.0)) {
-        complain("the restitution is %.3g in the mean: no spring with a damper has that", middle);
-        return EXIT_REJECTED;
-    }
     struct engine_fit fit =
         engine_fit(export->engine->law, export->points, export->count, export->mass, export->step);
-    const struct engine_case engine_case = {export->text.bodies, PERCUSS_VERSION, export->masses,
-                                            export->step,        export->points,  export->count};
+    if (export->engine->law == ENGINE_CONSTANT && !(fit.restitution > 0.0)) {
+        complain("the restitution is %.3g in the middle of its range: no spring with a damper has "
+                 "that",
+                 fit.restitution);
+        return EXIT_REJECTED;
+    }
+    const struct engine_case engine_case = {export->text.bodies, PERCUSS_VERSION, export->step,
+                                            export->points, export->count};
     if (export->common->json) {
         print_json(export, &fit);
     } else {

@@ -42,3 +42,8 @@ expect 2 $export --b al-rod-1
 grep -q -- '--for PROGRAM' "$err" || fail "no program: $(cat "$err")"
 expect 5 $export --b nobody --speed 0.1:0.4 --for mujoco
 grep -q 'nobody' "$err" || fail "no body: $(cat "$err")"
+expect 2 $export --b al-rod-1 --speed 0.1:0.4:1 --for mujoco
+grep -q 'N of 2..1000 is needed' "$err" || fail "one point: $(cat "$err")"
+# cut off before its second blow
+expect 5 $export --b al-beam --speed 0.1:0.4:2 --for mujoco --horizon 0.2ms
+grep -q 'at 0.1 m/s: the restitution is not final' "$err" || fail "not final: $(cat "$err")"
