@@ -19,7 +19,8 @@ struct approach touch_before(const struct percuss_slow *slow,
                              double now, double back);
 
 /* When a contact that is due now touched, s: the root of its gap backward in time, with a constant
- * acceleration. Not before the last call, nor within the window of the pair's last answer. `now`
+ * acceleration. Not before the last call (at the first one nothing bounds it: its state is taken as
+ * the end of a step), nor within the window of the pair's last answer. `now`
  * where the bodies cannot be moved, the acceleration is not known, or the approach then was none.
  */
 double touch_time(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,

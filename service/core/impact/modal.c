@@ -825,6 +825,17 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
     return end;
 }
 
+/* At the horizon. A contact that remembers may have parted, though its surfaces have not come back
+ * yet: without vibration nothing brings them together again. */
+static enum percuss_end_reason end_at_horizon(struct modal_run *run)
+{
+    const struct memory_step *memory = run->step.memory;
+    if (!memory || !memory->parted)
+        return PERCUSS_END_IN_CONTACT;
+    close_contact(run, 0, memory->parted_at);
+    return run->march.scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(&run->march);
+}
+
 /* Steps until every contact is open again, the horizon, or the limit. */
 static enum percuss_end_reason go_through(struct modal_run *run)
 {
@@ -841,7 +852,7 @@ static enum percuss_end_reason go_through(struct modal_run *run)
             level = yielding_level(&run->yielding, level);
         double h = step_length(level), time = march->outcome->motion.time;
         if (time + h == time || march->horizon - time < step_length(deepest))
-            return PERCUSS_END_IN_CONTACT;
+            return end_at_horizon(run);
         /* a step without a solution, or too coarse, is tried again with half its length */
         enum contact_step_end end = solve_step(run, level);
         if (end == STEP_MEMORY)

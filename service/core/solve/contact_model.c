@@ -159,15 +159,17 @@ static enum percuss_status find_law(struct problem *problem,
     return PERCUSS_OK;
 }
 
-/* Hertz indentation if all of the rigid approach's energy went into the contact. */
-static double rigid_indentation(const struct problem *problem, size_t c)
+/* Hertz indentation if all the energy of the rigid approach at that speed went into the contact. */
+static double rigid_indentation(const struct problem *problem, size_t c, double speed)
 {
-    double speed = fmin(0.0, problem->gap_rate[c]);
     double w = problem->w[c * (problem->contact_count + 1)];
     return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
 }
 
 /* ---- What the materials lose ---- */
+
+/* Smaller loss factors take less than steps and modes leave, and are none. */
+static const double LEAST_LOSS = 1e-9;
 
 /* A body's relaxation, and its instantaneous modulus over `young`, which a loss factor is stated
  * with: that of the contact's frequency. */
@@ -175,7 +177,7 @@ static struct relaxation relaxation_of(const struct body *body, double omega, do
 {
     struct relaxation relaxation = {0};
     *instantaneous = 1.0;
-    if (body->loss_factor > 0.0) {
+    if (body->loss_factor > LEAST_LOSS) {
         relaxation = relaxation_constant(body->loss_factor, omega);
         *instantaneous = 1.0 / relaxation_storage(&relaxation, omega);
     }
@@ -184,16 +186,24 @@ static struct relaxation relaxation_of(const struct body *body, double omega, do
 
 static bool states_loss(const struct problem *problem, size_t c)
 {
-    return problem_body(problem, c, 0)->loss_factor > 0.0 ||
-           problem_body(problem, c, 1)->loss_factor > 0.0;
+    return problem_body(problem, c, 0)->loss_factor > LEAST_LOSS ||
+           problem_body(problem, c, 1)->loss_factor > LEAST_LOSS;
+}
+
+/* Of the rigid approach when it touches, m/s: a gap that is open is closed with the acceleration of
+ * the gap; NAN: it does not touch. */
+static double touching_speed(const struct problem *problem, size_t c)
+{
+    const double rate = fmin(0.0, problem->gap_rate[c]);
+    const double a = problem->request->contacts[c].gap_acceleration;
+    return sqrt(rate * rate - 2.0 * a * fmax(0.0, problem->request->contacts[c].gap));
 }
 
 /* Angular frequency of an elastic contact of the rigid masses, rad/s: pi over its duration. */
 static double frequency_of(const struct problem *problem, size_t c)
 {
-    double duration =
-        HERTZ_DURATION * rigid_indentation(problem, c) / fmax(-problem->gap_rate[c], 0.0);
-    return M_PI / duration;
+    double speed = touching_speed(problem, c);
+    return M_PI * speed / (HERTZ_DURATION * rigid_indentation(problem, c, speed));
 }
 
 /* Why a contact cannot lose what its materials do; NULL: it can. */
@@ -204,7 +214,7 @@ static const char *why_lossless(const struct problem *problem)
     if (problem->contact_count > 1)
         return "contacts: must be one";
     if (problem->friction_count > 0)
-        return "contacts[0].friction: must be left out";
+        return "it has no friction: options.friction must be none, or no coefficient stated";
     if (!states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0";
     return NULL;
@@ -279,7 +289,8 @@ enum percuss_status contact_model_choose(struct problem *problem,
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
-        likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
+        likely = likely || rigid_indentation(problem, c, fmin(0.0, problem->gap_rate[c])) >
+                               model->choices[c].yield;
     }
     enum percuss_status status = find_lossy(problem, fault);
     if (status)
@@ -586,7 +597,9 @@ enum percuss_status compliance_choose(struct problem *problem, enum percuss_comp
 static double largest_stiffness(const struct problem *problem, const struct impact_outcome *outcome,
                                 size_t c)
 {
-    double k = problem->hertz[c].stiffness;
+    /* the law that was in use: one that remembers is stiffer at first than Hertz's */
+    const struct contact_law *law = &outcome->laws[c];
+    double k = law->operations->remembers ? law->parameters[0] : problem->hertz[c].stiffness;
     double force = outcome_peak_force(outcome, c);
     return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }

@@ -115,3 +115,31 @@ say "one that no material has is refused, with what is allowed"
 sed 's/loss_factor: 0.06/loss_factor: 6/' "$work/catalogue.yaml" >"$work/wrong.yaml"
 expect 2 "$bin/percuss" query --local --catalogue "$work/wrong.yaml" --a ball --b stop --speed 0.3
 says "wrong.yaml:3: materials.nylon.loss_factor: 6: must be a ratio >= 0 and < 2"
+
+say "soft, lossy bodies: on beams, with surfaces that come back slowly, with a gap, with next to no loss"
+cat >"$work/soft.yaml" <<END
+materials:
+  soft: {young: 5e7, poisson: 0.45, density: 1100, loss_factor: 1.6, yield: none}
+  slow: {young: 5e6, poisson: 0.49, density: 1100, loss_factor: 1.0, yield: none}
+  tiny: {young: 5e7, poisson: 0.45, density: 1100, loss_factor: 1e-16, yield: none}
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  soft-ball: {shape: sphere, material: soft, radius: 0.02}
+  slow-ball: {shape: sphere, material: slow, radius: 0.1}
+  tiny-ball: {shape: sphere, material: tiny, radius: 0.015}
+  steel-ball: {shape: sphere, material: steel, radius: 0.02}
+  beam: {shape: beam, material: soft, radius: 0.01, length: 0.3, theory: timoshenko, ends: free, damping: 0}
+  wall: {shape: half-space, material: steel}
+END
+# pair A B SPEED LOW HIGH: a final restitution between these
+pair() {
+    expect 0 "$bin/percuss" query --local --catalogue "$work/soft.yaml" --a "$1" --b "$2" --speed "$3" --json
+    awk -v e="$(field restitution)" -v low="$4" -v high="$5" 'BEGIN { exit !(e > low && e < high) }' ||
+        fail "$1 on $2: $(field restitution)"
+}
+# the compliance in series must not be more negative than the law in use bears
+pair soft-ball beam 0.2 0.36 0.38
+pair steel-ball beam 0.2 0.58 0.60
+# it has parted long before its surface has come back, which is behind the horizon
+pair slow-ball wall 0.3 0.307 0.309
+pair tiny-ball wall 0.2 0.9999 1.0001
