@@ -307,9 +307,14 @@ bool memory_step_solve(struct memory_step *step, int level, const double (*coupl
     step->turn = INFINITY;
     if (!solve(step, table, coupling, target, last, d, force, iterations))
         return false;
-    for (int round = 0; round < TURN_ROUNDS && find_turn(step, level, d); round++)
+    for (int round = 0; round < TURN_ROUNDS; round++) {
+        bool turned = step->turn < 1.0, turns = find_turn(step, level, d);
+        /* the forces are those without a turn, or with the one that is gone */
+        if (!turns && !turned)
+            break;
         if (!solve(step, table, coupling, target, last, d, force, iterations))
             return false;
+    }
     return true;
 }
 
