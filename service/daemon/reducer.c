@@ -411,8 +411,11 @@ static bool reducer_conclude_adding(struct reducer *reducer, const struct body_s
         reducer_reason(reducer, status, reason);
         log_line(LEVEL_ERROR, "%s: sites could not be added: %s; SIGHUP tries again", reducer->id,
                  reason);
-        reducer_tell(reducer, set, PERCUSS_UNSUPPORTED_GEOMETRY,
-                     "its flexibility there could not be solved for: %s", reason);
+        reducer_tell(
+            reducer, set, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "its flexibility could not be solved for at places on it: %s; SIGHUP to percussd "
+            "tries again",
+            reason);
     }
     reducer_drop_files(reducer);
     return made;
@@ -453,6 +456,12 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
 {
     for (size_t i = 0; i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
+        /* with the body, or with more places of one that it has */
+        if (order->made && order->later)
+            body_order_tell(order, PERCUSS_UNSUPPORTED_GEOMETRY,
+                            "the catalogue cannot be loaded with places on it that were solved "
+                            "for: %.380s",
+                            fault->text);
         char *path =
             order->made || order->missing ? NULL : result_path(reducer, order->name, ".h5");
         if (path && access(path, F_OK) == 0)
@@ -496,8 +505,8 @@ static void reducer_look_for_places(struct reducer *reducer, const struct body_s
         reducer_start_adding(reducer, set, order, count, places);
     if (!reducer->child)
         body_order_tell(order, PERCUSS_UNSUPPORTED_GEOMETRY,
-                        "its flexibility there cannot be solved for: %s; the server's log says "
-                        "more",
+                        "its flexibility at further places cannot be solved for: %s; the server's "
+                        "log says more",
                         reducer->halted);
 }
 

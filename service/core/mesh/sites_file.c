@@ -39,11 +39,15 @@ static enum percuss_status refuse_line(const struct mesh_body *body, size_t line
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s.sites:%zu: %s", body->path, line, must);
 }
 
+/* How sites are solved for: one more where a release gives other flexibilities for the same mesh.
+ */
+enum { METHOD = 1 };
+
 /* The body's line: what its sites hold for. Another release may take out other modes, or state
  * flexibilities for another contact, of the same mesh. */
 static void body_line(const struct mesh_body *body, char line[256])
 {
-    snprintf(line, 256, "body %s %zu %.17g", body->hash, body->removed, body->cut);
+    snprintf(line, 256, "body %s %zu %.17g %d", body->hash, body->removed, body->cut, METHOD);
 }
 
 /* ---- reading ---- */
@@ -119,7 +123,7 @@ static enum percuss_status read_open(FILE *file, struct mesh_body *body, struct 
     if (strcmp(line, FIRST) != 0)
         return refuse_line(body, 1, "must be \"percuss sites 1\": made by percuss-reduce", fault);
     if (!fgets(line, sizeof line, file) || strncmp(line, "body ", 5) != 0)
-        return refuse_line(body, 2, "must be \"body HASH MODES CUT\"", fault);
+        return refuse_line(body, 2, "must be \"body HASH MODES CUT METHOD\"", fault);
     line[strcspn(line, "\n")] = '\0';
     /* those of a body that the present one has replaced count no more */
     body_line(body, own);
@@ -181,7 +185,7 @@ static int hold_file(const char *path)
     }
 }
 
-/* Whether the body has a site in reach, on the same patch. */
+/* Whether the body has a site there, on the same patch. */
 static bool has_site(const struct mesh_body *body, const struct mesh_body_site *site)
 {
     const struct mesh_body_site *there = mesh_body_added_at(body, site->face, site->point);
@@ -218,9 +222,14 @@ static enum percuss_status write_sites(const char *path, const struct mesh_body 
     struct atomic_file aside;
     char line[256];
     int descriptor = atomic_file_create(&aside, path, 0666, fault);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    if (!file)
+    if (descriptor < 0)
         return PERCUSS_BAD_REQUEST;
+    FILE *file = fdopen(descriptor, "w");
+    if (!file) {
+        close(descriptor);
+        atomic_file_abandon(&aside);
+        return out_of_memory(body, fault);
+    }
     body_line(body, line);
     fprintf(file, "%s\n%s\n", FIRST, line);
     for (size_t i = 0; i < body->added_count; i++) {
@@ -254,6 +263,8 @@ enum percuss_status sites_file_add(struct mesh_body *body, size_t count,
     if (!file)
         status = fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be written: %s", path,
                            strerror(errno));
+    if (!file && held >= 0)
+        close(held);
     /* with those of other processes */
     if (!status)
         status = read_again(file, body, fault);

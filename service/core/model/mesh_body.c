@@ -14,8 +14,9 @@ static const double ASYMMETRY = 1e-6;
 static const double UNIT_LENGTH = 1e-4;
 /* And of a tensor and a normal in float. */
 static const double SAME_FLEXIBILITY = 1e-5;
-/* Of half a thickness. */
-static const double SITE_REACH = 0.1;
+/* Of half a thickness, volume over surface, and of the distance from an edge; the least part of it
+ * in any case. */
+static const double SITE_REACH = 0.1, LEAST_REACH = 0.01;
 
 static enum percuss_status check_inertia(const struct mesh_body *body, struct fault *fault)
 {
@@ -174,23 +175,52 @@ void mesh_body_set_normal(const double n[3], double value, double tensor[6])
         tensor[k] += more * n[ROW[k]] * n[COLUMN[k]];
 }
 
-double mesh_body_site_reach(const struct mesh_body *body)
+static double rim_distance2(const struct mesh_rim *rim, const double p[3])
 {
-    return SITE_REACH * body->volume / body->area;
+    double along[3];
+    double from[3];
+    for (int k = 0; k < 3; k++) {
+        along[k] = (double)rim->to[k] - (double)rim->from[k];
+        from[k] = p[k] - (double)rim->from[k];
+    }
+    double length2 = dot3(along, along);
+    double t = length2 > 0.0 ? fmin(fmax(dot3(from, along) / length2, 0.0), 1.0) : 0.0;
+    add_scaled3(-t, along, from);
+    return dot3(from, from);
+}
+
+double mesh_body_rim_distance(const struct mesh_body *body, unsigned patch, const double p[3])
+{
+    double nearest2 = INFINITY;
+    for (size_t i = body->rim_first[patch]; i < body->rim_first[patch + 1]; i++)
+        nearest2 = fmin(nearest2, rim_distance2(&body->rims[i], p));
+    return sqrt(nearest2);
+}
+
+/* Flexibilities grow like 1/distance from an edge: those of two places a tenth of it apart differ
+ * by a tenth. Of a place that the mesh cannot say nothing but itself is known. Points of a file, in
+ * single precision, are found again within the least reach. */
+static double reach_of(const struct mesh_body *body, const struct mesh_body_site *site)
+{
+    double most = SITE_REACH * body->volume / body->area;
+    double edge = body->rim_first
+                      ? mesh_body_rim_distance(body, body->faces[site->face].patch, site->point)
+                      : INFINITY;
+    double reach = isnan(site->flexibility) ? 0.0 : SITE_REACH * edge;
+    return fmax(LEAST_REACH * most, fmin(reach, most));
 }
 
 const struct mesh_body_site *mesh_body_added_at(const struct mesh_body *body, unsigned face,
                                                 const double point[3])
 {
     const struct mesh_body_site *unknown = NULL;
-    double reach = mesh_body_site_reach(body);
     for (size_t i = 0; i < body->added_count; i++) {
         const struct mesh_body_site *site = &body->added[i];
         double apart[3];
         sub3(site->point, point, apart);
-        if (!(norm3(apart) <= reach))
+        if (!(norm3(apart) <= reach_of(body, site)))
             continue;
-        if (body->faces[site->face].patch == body->faces[face].patch)
+        if (!isnan(site->flexibility) && body->faces[site->face].patch == body->faces[face].patch)
             return site;
         if (!unknown && isnan(site->flexibility))
             unknown = site;

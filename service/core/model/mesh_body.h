@@ -47,7 +47,7 @@ struct mesh_rim {
 };
 
 /* A place of the surface whose flexibility was solved for after the body was made: as in struct
- * mesh_body_face, it holds for contacts within mesh_body_site_reach of `point`. */
+ * mesh_body_face, it holds for contacts around `point` (mesh_body_added_at). */
 struct mesh_body_site {
     unsigned face;
     double point[3];    /* on the surface, m, from the centre of mass */
@@ -126,13 +126,15 @@ static inline bool mesh_body_is_later(const struct mesh_body *body)
     return body->origin.mesh != NULL;
 }
 
-/* The distance from an added site within which its flexibility holds, m: a tenth of half a
- * thickness (volume over surface), as declared normals of named sites do. */
-double mesh_body_site_reach(const struct mesh_body *body);
+/* Distance of a point from the sharp edges of a patch, m; INFINITY: it has none. The body is
+ * prepared (mesh_surface_prepare). */
+double mesh_body_rim_distance(const struct mesh_body *body, unsigned patch, const double p[3]);
 
 /* The first added site on the face's patch whose flexibility holds at a point of the face (m, the
- * file's frame and size), so that further ones change no answer there. Without one, the first of
- * any patch that the mesh could not say: on an edge a place belongs to both. NULL: none. */
+ * file's frame and size), so that further ones change no answer there: within a tenth of half a
+ * thickness (volume over surface), as declared normals of named sites do, and a tenth of its
+ * distance from a sharp edge. Without one, the first of any patch that the mesh could not say and
+ * that is there: on an edge a place belongs to both. NULL: none. */
 const struct mesh_body_site *mesh_body_added_at(const struct mesh_body *body, unsigned face,
                                                 const double point[3]);
 

@@ -285,28 +285,6 @@ static void surface_search(struct finding *finding)
     take_later(finding);
 }
 
-static double rim_distance2(const struct mesh_rim *rim, const double p[3])
-{
-    double along[3];
-    double from[3];
-    for (int k = 0; k < 3; k++) {
-        along[k] = (double)rim->to[k] - (double)rim->from[k];
-        from[k] = p[k] - (double)rim->from[k];
-    }
-    double length2 = dot3(along, along);
-    double t = length2 > 0.0 ? fmin(fmax(dot3(from, along) / length2, 0.0), 1.0) : 0.0;
-    add_scaled3(-t, along, from);
-    return dot3(from, from);
-}
-
-static double distance_to_rim(const struct mesh_body *body, unsigned patch, const double p[3])
-{
-    double nearest2 = INFINITY;
-    for (size_t i = body->rim_first[patch]; i < body->rim_first[patch + 1]; i++)
-        nearest2 = fmin(nearest2, rim_distance2(&body->rims[i], p));
-    return sqrt(nearest2);
-}
-
 int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
                       struct mesh_place *places, int most)
 {
@@ -318,7 +296,8 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
     surface_search(&finding);
     if (finding.count == 0)
         return 0;
-    places[0].to_rim = distance_to_rim(body, body->faces[places[0].face].patch, places[0].point);
+    places[0].to_rim =
+        mesh_body_rim_distance(body, body->faces[places[0].face].patch, places[0].point);
     if (places[0].to_rim > beside || most < 2)
         return 1;
     /* near an edge: those of other patches too */
@@ -329,7 +308,7 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
     surface_search(&finding);
     for (int i = 0; i < finding.count; i++)
         places[i].to_rim =
-            distance_to_rim(body, body->faces[places[i].face].patch, places[i].point);
+            mesh_body_rim_distance(body, body->faces[places[i].face].patch, places[i].point);
     return finding.count;
 }
 

@@ -302,7 +302,7 @@ static enum percuss_status advance_columns(struct flexibility *f, size_t count, 
 static void complete_normals(struct flexibility *f, size_t count)
 {
     size_t n = f->n, loads = (size_t)f->places[0].loads;
-    for (size_t c = 1; c < count; c++) {
+    for (size_t c = 1; loads > 1 && c < count; c++) {
         memcpy(f->x + c * n, f->x + c * loads * n, n * sizeof *f->x);
         memcpy(f->shifts + c * n, f->shifts + c * loads * n, n * sizeof *f->shifts);
         memcpy(f->momenta + c * f->psi_count, f->momenta + c * loads * f->psi_count,

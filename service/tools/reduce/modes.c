@@ -266,12 +266,15 @@ static void begin_count(void *context, const double *omega)
 }
 
 /* Whether that is done, below the gap that it was in the end, and confirms the modes. */
-static bool end_count(struct count_ahead *ahead, const struct modes *modes)
+static bool end_count(struct count_ahead *ahead, struct modes *modes)
 {
     bool done = forked_end(ahead->copy);
-    return done && *ahead->counted == modes->confirmed &&
-           modes->omega[modes->confirmed - 1] < ahead->below &&
-           ahead->below < modes->omega[modes->confirmed];
+    if (!done || *ahead->counted != modes->confirmed ||
+        !(modes->omega[modes->confirmed - 1] < ahead->below &&
+          ahead->below < modes->omega[modes->confirmed]))
+        return false;
+    modes->confirmed_below = ahead->below;
+    return true;
 }
 
 static enum percuss_status seek_modes(const struct modes_task *task, struct factor *factor,

@@ -128,7 +128,7 @@ block 4 2 3 >"$work/block.inp"
 sed -i 's/0.004, 0/-0.004, 0/' "$work/request.json"
 refused_place() {
     asks
-    grep -q "could not be solved for: percuss-reduce: .*block.inp: is not the mesh that" "$err"
+    grep -q "could not be solved for at places on it: percuss-reduce: .*block.inp: is not the mesh that" "$err"
 }
 wait_for 20 refused_place || fail "no reason for who asks"
 

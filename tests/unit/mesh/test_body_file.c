@@ -435,10 +435,20 @@ static void sites_are_added_beside_it(void **state)
     spot = spot_on(other, 9);
     assert_true(!spot.unsolved && isnan(spot.flexibility));
     assert_true(spot_on(other, 6).unsolved);
+    /* what is not known there is known beside it */
+    struct mesh_body_site beside = site_on(other, 9, 3e-9);
+    struct fault fault = {""};
+    size_t added;
+    double asked[3] = {beside.point[0], beside.point[1], beside.point[2]};
+    beside.point[0] += 0.03 * other->volume / other->area;
+    assert_int_equal(sites_file_add(other, 1, &beside, &added, &fault), PERCUSS_OK);
+    assert_int_equal(added, 1);
+    assert_true(mesh_body_added_at(other, 9, beside.point)->flexibility == 3e-9);
+    asked[0] += 0.06 * other->volume / other->area;
+    assert_true(mesh_body_added_at(other, 9, asked)->flexibility == 3e-9);
     mesh_body_free(other);
     /* those of another body of that name count no more, nor where it takes out other modes, and go
      * with the next that is added */
-    struct fault fault = {""};
     body->removed--;
     assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
     other = read_back(path);
@@ -527,7 +537,7 @@ static void damaged_sites_are_refused(void **state)
         assert_non_null(file);
         /* those after the body's line */
         if (cases[i].text[0] != 'p')
-            fprintf(file, "percuss sites 1\nbody made %zu %.17g\n", body->removed, body->cut);
+            fprintf(file, "percuss sites 1\nbody made %zu %.17g 1\n", body->removed, body->cut);
         fputs(cases[i].text, file);
         fclose(file);
         assert_int_equal(body_file_read(path, &other, &fault), PERCUSS_BAD_REQUEST);
