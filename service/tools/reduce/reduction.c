@@ -391,6 +391,14 @@ static enum percuss_status check_memory(const struct reduction *reduction, doubl
                      1e-9 * reduction->cost.memory, 1e-9 * free, remedy);
 }
 
+/* From here on the time left is told. */
+static void foretell(struct reduction *reduction)
+{
+    reduction->progress.work = rates_clock();
+    reduction->progress.expected = reduction->cost.seconds + reduction->statics;
+    progress_clear(&reduction->progress);
+}
+
 /* Tells time and memory before the first factor, and refuses where the memory does not suffice. */
 static enum percuss_status estimate_cost(struct reduction *reduction, size_t count, bool counted,
                                          struct fault *fault)
@@ -411,9 +419,7 @@ static enum percuss_status estimate_cost(struct reduction *reduction, size_t cou
     double each = reduction->sample.seconds + FLEXIBILITY_LOADS * column;
     reduction->statics =
         (double)sites * each / (double)processes_for(reduction) + reduction->sample.faces;
-    reduction->progress.work = rates_clock();
-    reduction->progress.expected = reduction->cost.seconds + reduction->statics;
-    progress_clear(&reduction->progress);
+    foretell(reduction);
     fprintf(stderr,
             "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, %.2g s for the "
             "modes and %.2g s for the flexibility at %zu sites\n",
@@ -648,6 +654,11 @@ static enum percuss_status read_later_body(struct reduction *reduction, struct o
     if (asprintf(&sites, "%s.sites", options->add_to) < 0)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     status = check_output(sites, fault);
+    /* it is replaced by a new file of that name */
+    if (!status && access(dirname(sites), W_OK | X_OK))
+        status =
+            fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s.sites: its folder cannot be written: %s",
+                      options->add_to, strerror(errno));
     free(sites);
     if (!status)
         status = recipe_read(origin->options, options, fault);
@@ -667,9 +678,7 @@ static enum percuss_status estimate_adding(struct reduction *reduction, struct f
     reduction->statics = (double)(FLEXIBILITY_LOADS * count) *
                          flexibility_column_seconds(&reduction->rates, &reduction->factor_cost,
                                                     &reduction->matrices.mass, 0);
-    reduction->progress.work = rates_clock();
-    reduction->progress.expected = reduction->cost.seconds + reduction->statics;
-    progress_clear(&reduction->progress);
+    foretell(reduction);
     fprintf(stderr,
             "percuss-reduce: %zu unknowns: about %.2g GB of memory, %.2g s for their factor and "
             "%.2g s for the flexibility at %zu site%s\n",

@@ -99,6 +99,10 @@ if [ "$(id -u)" = 0 ]; then
     expect 1 setpriv --reuid=65534 --regid=65534 --clear-groups "$work/kept/percuss-reduce" \
         --add-sites "$work/kept/later.h5" --site 20,7.5,10
     says "kept/later.h5.sites: cannot be written: Permission denied"
+    : >"$work/kept/later.h5.sites" && chmod 666 "$work/kept/later.h5.sites"
+    expect 1 setpriv --reuid=65534 --regid=65534 --clear-groups "$work/kept/percuss-reduce" \
+        --add-sites "$work/kept/later.h5" --site 20,7.5,10
+    says "kept/later.h5.sites: its folder cannot be written: Permission denied"
 fi
 
 say "two materials by name, held at one end, all modes below a frequency"
