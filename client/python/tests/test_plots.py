@@ -128,7 +128,9 @@ class Plots(unittest.TestCase):
         file.write_text(CANTILEVER)
         with percuss.Local(file) as local:
             for at, long in (("middle", 5.0), ("97%", 1.0)):
-                traced = percuss.trace(percuss.contact_pair("ball", "cantilever", "300mm/s", at=at, client=local), local)
+                struck = percuss.contact_pair("ball", "cantilever", "300mm/s", at=at, client=local)
+                # five seconds of a processor that others may want, too
+                traced = percuss.trace(struck, local, timeout=300.0)
                 end, last = 1e3 * traced.reply.contacts[0].end_time, 1e3 * traced.contacts[0].time[-1]
                 self.assertGreater(last, long * end)
                 for axes in self.rendered(traced.plot()):

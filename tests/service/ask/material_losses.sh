@@ -68,7 +68,7 @@ expect 0 "$bin/percuss" query --local --catalogue "$work/catalogue.yaml" --a bal
 says "contacts[0]: what stop loses $lost"
 
 say "by finite elements it is not in the number either"
-expect 0 percuss query --a ball --b bead --speed 0.3 --contact-model complete-fe --tolerance 0.05
+expect 0 percuss query --a ball --b bead --speed 0.3 --contact-model complete-fe --tolerance 0.05 --timeout 300
 says "contacts[0]: what bead loses $lost"
 
 say "what vibrates is damped by it, unless the catalogue says otherwise"
