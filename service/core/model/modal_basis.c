@@ -8,22 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct site_load site_load_make(const struct body *body, const struct site *site,
-                                const double direction[3])
+void site_load_find(const struct body *body, const struct site *site, const double direction[3],
+                    bool tangential, struct site_load *load)
 {
-    struct site_load load = {0};
+    *load = (struct site_load){0};
     if (body->kind->load)
-        body->kind->load(body, site, direction, false, &load);
-    return load;
-}
-
-struct site_load site_load_tangential(const struct body *body, const struct site *site,
-                                      const double direction[3])
-{
-    struct site_load load = {0};
-    if (body->kind->load)
-        body->kind->load(body, site, direction, true, &load);
-    return load;
+        body->kind->load(body, site, direction, tangential, load);
 }
 
 static struct modal_family *modal_family_allocate(const struct mode_family *kind, size_t family,

@@ -40,16 +40,21 @@ struct site_load {
     struct family_load family[BODY_MOST_FAMILIES];
 };
 
-/* The load of a unit force along `direction` (body frame), the surface's normal, at a site. Parts
- * below 1e-9 of the force do not act (rounding of the pose). */
-struct site_load site_load_make(const struct body *body, const struct site *site,
-                                const double direction[3]);
-
-/* The same along a direction in the surface, for friction. On the side of a bar it drives the
+/* The load of a unit force along `direction` (body frame) at a site: the surface's normal, or for
+ * friction (`tangential`) a direction in the surface. That drives on the side of a bar the
  * longitudinal waves, bends by its lever arm about the axis, and twists; a normal load there leaves
- * these out, as they come from the angle that is allowed between the stated and the true normal. */
-struct site_load site_load_tangential(const struct body *body, const struct site *site,
-                                      const double direction[3]);
+ * these out, as they come from the angle that is allowed between the stated and the true normal.
+ * Parts below 1e-9 of the force do not act (rounding of the pose). */
+void site_load_find(const struct body *body, const struct site *site, const double direction[3],
+                    bool tangential, struct site_load *load);
+
+static inline struct site_load site_load_make(const struct body *body, const struct site *site,
+                                              const double direction[3], bool tangential)
+{
+    struct site_load load;
+    site_load_find(body, site, direction, tangential, &load);
+    return load;
+}
 
 /* The first `count` modes of a family; NULL: out of memory. */
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count);

@@ -82,7 +82,7 @@ static double askew_share(const struct problem *problem, size_t contact, int whi
     if (!is_askew(problem, contact, which, &across, &beside) ||
         !beam_of(problem_body(problem, contact, which), &beam))
         return 0.0;
-    struct site_load load = site_load_make(&beam, &side->site, side->direction);
+    struct site_load load = site_load_make(&beam, &side->site, side->direction, false);
     return bending(problem, &beam, &load, duration) /
            problem->w[contact * (problem->contact_count + 1)];
 }

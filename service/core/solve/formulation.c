@@ -102,7 +102,7 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
         return status;
     side->material = body_material_at(body, &side->site);
     rotate_back3(pose->rotation, push, side->direction);
-    side->load = site_load_make(body, &side->site, side->direction);
+    site_load_find(body, &side->site, side->direction, false, &side->load);
     return PERCUSS_OK;
 }
 

@@ -89,8 +89,8 @@ static void place_tangents(const struct problem *problem, struct contact_frictio
             double push[3];
             scale3(which == 0 ? 1.0 : -1.0, friction->tangent[t], push);
             rotate_back3(problem->poses[sides[which].body].rotation, push, at->direction);
-            at->load = site_load_tangential(problem->bodies[sides[which].body], &sides[which].site,
-                                            at->direction);
+            site_load_find(problem->bodies[sides[which].body], &sides[which].site, at->direction,
+                           true, &at->load);
         }
 }
 

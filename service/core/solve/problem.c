@@ -51,8 +51,9 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
     /* The modes of a solid at a point sum up to the contact's own flexibility, without bound. A
      * contact law has its share of that; plain friction has none, and solids are rigid along their
      * surface. */
-    if (row >= problem->contact_count && body_is_solid(problem->bodies[body]) &&
-        problem->request->options.friction == PERCUSS_FRICTION_PLAIN)
+    if (row >= problem->contact_count &&
+        problem->request->options.friction == PERCUSS_FRICTION_PLAIN &&
+        body_is_solid(problem->bodies[body]))
         return NULL;
     for (int which = 0; which < 2; which++) {
         struct row_side side = problem_row_side(problem, row, which);

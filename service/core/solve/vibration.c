@@ -97,7 +97,7 @@ static bool lend_load(struct problem *problem, size_t c, int which)
 {
     struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
-    side->load = site_load_make(body, &side->site, side->direction);
+    site_load_find(body, &side->site, side->direction, false, &side->load);
     struct mesh_load *load = &side->load.family[0].mesh;
     double unit = mesh_ratio_flexibility(body);
     keep_off_edges(body, load);

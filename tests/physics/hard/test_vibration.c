@@ -21,7 +21,7 @@ static double first_node(const struct body *beam)
             struct site site = {.face = SITE_BEAM_SIDE,
                                 .point = {which ? middle : 0.0, 0.0, beam->radius},
                                 .outward = {0.0, 0.0, 1.0}};
-            struct site_load load = site_load_make(beam, &site, (double[]){0.0, 0.0, -1.0});
+            struct site_load load = site_load_make(beam, &site, (double[]){0.0, 0.0, -1.0}, false);
             sign[which] = modal_participation(beam, modes, 0, &load.family[BAR_BENDING_Z]);
         }
         if (sign[0] * sign[1] > 0.0)

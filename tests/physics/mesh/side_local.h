@@ -53,7 +53,7 @@ static inline void side_mesh(const struct body *bar, const size_t cells[3], stru
 static inline double side_families(const struct body *bar, const struct site *site,
                                    const double inward[3])
 {
-    struct site_load load = site_load_make(bar, site, inward);
+    struct site_load load = site_load_make(bar, site, inward, false);
     double sum = 0.0;
     for (size_t f = 0; f < bar->kind->family_count; f++)
         sum += modal_compliance(bar, f, &load.family[f], &load.family[f]);

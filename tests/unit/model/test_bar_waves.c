@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/model/bar_waves.c, twist: the section's constants, modes against Vlasov's equation, static
- * compliances that the modal sums approach, and d'Alembert's waves. */
+/* Mirrors service/core/model/bar_waves.c, twist: the section's constants, modes against Vlasov's
+ * equation, static compliances that the modal sums approach, and d'Alembert's waves. */
 #include "check.h"
 #include "model/bar.h"
 #include "model/bar_waves.h"
@@ -157,7 +157,7 @@ static struct site_load beside(const struct body *body, double x, double y)
 {
     struct site site = {
         .face = SITE_BEAM_SIDE, .point = {x, y, 0.5 * body->height}, .outward = {0.0, 0.0, 1.0}};
-    return site_load_make(body, &site, (double[]){0.0, 0.0, -1.0});
+    return site_load_make(body, &site, (double[]){0.0, 0.0, -1.0}, false);
 }
 
 static void blows_beside_the_axis_twist(void **state)
@@ -175,7 +175,7 @@ static void blows_beside_the_axis_twist(void **state)
     assert_int_equal(body_complete(&round, NULL), PERCUSS_OK);
     /* a normal 3 degrees askew: no friction, no torque on a round section */
     struct site site = {.face = SITE_BEAM_SIDE, .point = {0.0, 0.0, 0.01}};
-    load = site_load_make(&round, &site, (double[]){0.0, 0.0523, -0.9986});
+    load = site_load_make(&round, &site, (double[]){0.0, 0.0523, -0.9986}, false);
     assert_false(load.family[BAR_TWIST].acts);
 }
 

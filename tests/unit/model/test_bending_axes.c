@@ -27,7 +27,7 @@ static struct body beam(double width, double height)
 static struct site_load blow(const struct body *body, double angle)
 {
     const struct site site = {.face = SITE_BEAM_SIDE, .point = {0.1, 0.0, 0.0}};
-    return site_load_make(body, &site, (double[]){0.0, sin(angle), cos(angle)});
+    return site_load_make(body, &site, (double[]){0.0, sin(angle), cos(angle)}, false);
 }
 
 static double compliance(const struct body *body, const struct site_load *load)
@@ -73,8 +73,7 @@ static void tangential_loads_turn_with_the_normal(void **state)
         struct site_load loads[ROWS], turned[ROWS];
         struct bending_axes axes;
         for (int i = 0; i < ROWS; i++)
-            turned[i] = loads[i] =
-                i ? site_load_tangential(body, &site, t[i]) : site_load_make(body, &site, t[i]);
+            turned[i] = loads[i] = site_load_make(body, &site, t[i], i > 0);
         assert_true(bending_axes_choose(body, &loads[0], &axes));
         for (int i = 0; i < ROWS; i++)
             bending_axes_turn_load(body, &axes, &turned[i]);

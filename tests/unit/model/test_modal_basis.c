@@ -36,27 +36,27 @@ static void loads_drive_what_they_should(void **state)
     struct site end = site(SITE_END, 0.5, 0.0, 0.0), side = site(SITE_BEAM_SIDE, 0.2, 0.0, 0.01);
     struct site beside = site(SITE_END, -0.5, 0.003, 0.0);
     const double along[3] = {-1.0, 0.0, 0.0}, down[3] = {0.0, 0.0, -1.0};
-    struct site_load load = site_load_make(&rod, &end, along);
+    struct site_load load = site_load_make(&rod, &end, along, false);
     assert_true(load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
     assert_true(load.family[BAR_LONGITUDINAL].bar.force == -1.0);
     assert_true(load.family[BAR_LONGITUDINAL].bar.x == 0.5);
-    load = site_load_make(&beam, &side, down);
+    load = site_load_make(&beam, &side, down, false);
     assert_true(!load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
     assert_true(load.family[BAR_BENDING_Z].acts);
     near(load.family[BAR_BENDING_Z].bar.x, 0.2, 0.0);
     near(load.family[BAR_BENDING_Z].bar.force, -1.0, 0.0);
     near(load.family[BAR_BENDING_Z].bar.moment, 0.0, 0.0);
     /* beside the axis a hit on the end bends too: psi moves a point at y by -y psi */
-    load = site_load_make(&beam, &beside, (double[]){1.0, 0.0, 0.0});
+    load = site_load_make(&beam, &beside, (double[]){1.0, 0.0, 0.0}, false);
     assert_true(load.family[BAR_LONGITUDINAL].acts && load.family[BAR_BENDING_Y].acts);
     assert_false(load.family[BAR_BENDING_Z].acts);
     near(load.family[BAR_BENDING_Y].bar.moment, -0.003, 0.0);
     near(load.family[BAR_BENDING_Y].bar.x, -0.5, 0.0);
     assert_true(load.family[BAR_LONGITUDINAL].bar.x == -0.5);
     /* rounding of the pose drives nothing */
-    load = site_load_make(&beam, &side, (double[]){1e-10, 1e-10, 1.0});
+    load = site_load_make(&beam, &side, (double[]){1e-10, 1e-10, 1.0}, false);
     assert_true(!load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
-    load = site_load_make(&ball, &end, along);
+    load = site_load_make(&ball, &end, along, false);
     for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
         assert_false(load.family[f].acts);
 }

@@ -51,7 +51,7 @@ static void nothing_acts(const struct body *body, const struct site *site)
 {
     for (int d = 0; d < 3; d++) {
         const double direction[3] = {d == 0, d == 1, d == 2};
-        struct site_load load = site_load_tangential(body, site, direction);
+        struct site_load load = site_load_make(body, site, direction, true);
         for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
             assert_false(load.family[f].acts);
     }
@@ -70,7 +70,7 @@ static void bodies_without_such_loads(void **state)
     nothing_acts(&block, &site);
     /* a rod does not bend */
     for (int d = 1; d < 3; d++) {
-        struct site_load load = site_load_tangential(&rod, &end, d == 1 ? Y : Z);
+        struct site_load load = site_load_make(&rod, &end, d == 1 ? Y : Z, true);
         for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
             assert_false(load.family[f].acts);
     }
@@ -81,7 +81,7 @@ static void parts_of_a_load(void **state)
     (void)state;
     struct body beam = plain_beam(SUPPORT_FREE, SUPPORT_FREE);
     struct site top = place(SITE_BEAM_SIDE, 0.2, 0.0, 0.01);
-    struct site_load load = site_load_tangential(&beam, &top, X);
+    struct site_load load = site_load_make(&beam, &top, X, true);
     const struct family_load *family = load.family;
     assert_true(family[BAR_LONGITUDINAL].acts && family[BAR_BENDING_Z].acts);
     assert_false(family[BAR_BENDING_Y].acts || family[BAR_TWIST].acts);
@@ -90,17 +90,17 @@ static void parts_of_a_load(void **state)
     near(family[BAR_BENDING_Z].bar.force, 0.0, 0.0);
     near(family[BAR_BENDING_Z].bar.moment, -0.01, 0.0);
     /* across: twist, and the other plane */
-    load = site_load_tangential(&beam, &top, Y);
+    load = site_load_make(&beam, &top, Y, true);
     assert_true(family[BAR_BENDING_Y].acts && family[BAR_TWIST].acts);
     assert_false(family[BAR_LONGITUDINAL].acts || family[BAR_BENDING_Z].acts);
     near(family[BAR_BENDING_Y].bar.force, 1.0, 0.0);
     near(family[BAR_TWIST].bar.moment, -0.01, 0.0);
     near(family[BAR_TWIST].bar.x, 0.2, 0.0);
     /* rounding of the pose drives nothing */
-    load = site_load_tangential(&beam, &top, (double[]){1.0, 1e-10, 1e-10});
+    load = site_load_make(&beam, &top, (double[]){1.0, 1e-10, 1e-10}, true);
     assert_false(family[BAR_BENDING_Y].acts || family[BAR_TWIST].acts);
     /* a normal force on the side drives neither waves along the axis nor twist */
-    load = site_load_make(&beam, &top, (double[]){0.02, 0.02, 1.0});
+    load = site_load_make(&beam, &top, (double[]){0.02, 0.02, 1.0}, false);
     assert_false(family[BAR_LONGITUDINAL].acts || family[BAR_TWIST].acts);
 }
 
@@ -152,11 +152,11 @@ static void participations_are_displacements(void **state)
                 double u[3];
                 moved(&beam, modes, k, bar_cap_section(&beam, &end), 0.5 * beam.span, end.point, u);
                 for (size_t i = 0; i < COUNT(t); i++) {
-                    struct site_load load = site_load_tangential(&beam, &end, t[i]);
+                    struct site_load load = site_load_make(&beam, &end, t[i], true);
                     near(modal_participation(&beam, modes, k, &load.family[f]), dot3(u, t[i]),
                          1e-13 * (1.0 + fabs(u[0])));
                 }
-                struct site_load load = site_load_tangential(&beam, &side, X);
+                struct site_load load = site_load_make(&beam, &side, X, true);
                 moved(&beam, modes, k, 0.31, 0.31, side.point, u);
                 double row = load.family[f].acts
                                  ? modal_participation(&beam, modes, k, &load.family[f])
@@ -217,9 +217,9 @@ static void rods_on_their_sides(void **state)
 static void rows_of(const struct body *body, const struct site *site, double t[ROWS][3],
                     struct site_load loads[ROWS])
 {
-    loads[0] = site_load_make(body, site, t[0]);
+    loads[0] = site_load_make(body, site, t[0], false);
     for (int r = 1; r < ROWS; r++)
-        loads[r] = site_load_tangential(body, site, t[r]);
+        loads[r] = site_load_make(body, site, t[r], true);
 }
 
 static double compliance_of(const struct body *body, const struct site_load *i,

@@ -432,19 +432,23 @@ double loss_deviation(const struct problem *problem, size_t contact, double rebo
     return LOSS_DEVIATION * M_PI_2 * loss_factor * rebound;
 }
 
-/* The body's part of the contact's loss factor, 0 where none is stated, or is in the answer. */
-static double stated_loss(const struct problem *problem, size_t contact, int which)
+/* The bodies' parts of the contact's loss factor, 0 where none is stated, or is in the answer;
+ * their sum. */
+static double stated_loss(const struct problem *problem, size_t contact, double part[2])
 {
-    double loss_factor = problem_body(problem, contact, which)->loss_factor;
-    return isnan(loss_factor) || has_loss(problem, contact)
-               ? 0.0
-               : indentation_share(problem, contact, which) * loss_factor;
+    for (int which = 0; which < 2; which++) {
+        double loss_factor = problem_body(problem, contact, which)->loss_factor;
+        part[which] = isnan(loss_factor) || has_loss(problem, contact)
+                          ? 0.0
+                          : indentation_share(problem, contact, which) * loss_factor;
+    }
+    return part[0] + part[1];
 }
 
 double loss_of_contact(const struct problem *problem, size_t contact, double rebound)
 {
-    return lost_rebound(rebound,
-                        stated_loss(problem, contact, 0) + stated_loss(problem, contact, 1));
+    double part[2];
+    return lost_rebound(rebound, stated_loss(problem, contact, part));
 }
 
 double loss_worst(const struct problem *problem, const struct impact_outcome *outcome)
@@ -459,11 +463,11 @@ double loss_worst(const struct problem *problem, const struct impact_outcome *ou
 static void find_stated_loss(const struct problem *problem, size_t contact, double rebound,
                              struct warnings *warnings)
 {
-    double both = stated_loss(problem, contact, 0) + stated_loss(problem, contact, 1);
+    double part[2], both = stated_loss(problem, contact, part);
     double whole = lost_rebound(rebound, both);
     for (unsigned which = 0; which < 2 && whole > problem->tolerance; which++) {
         const struct body *body = problem_body(problem, contact, (int)which);
-        if (stated_loss(problem, contact, (int)which) >= 0.5 * both)
+        if (part[which] >= 0.5 * both)
             warnings_add(
                 warnings, WARNING_LOSS + which,
                 "contacts[%zu]: what %s loses of itself in the contact (loss_factor %.3g) is not "
