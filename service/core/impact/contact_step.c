@@ -49,7 +49,7 @@ static const double PLAIN_LEFT = 0.1;
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     double slide = scene->plain ? PLAIN_LEFT * accuracy : SLIDE_LEFT * sqrt(accuracy);
     *step = (struct contact_step){.arena = arena,
                                   .last_change = node_solver_last_change(accuracy),
@@ -87,7 +87,7 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 {
     double h = step_length(level);
     midpoint_enter(&step->midpoint, scene, motion, level, step->target);
-    for (size_t c = 0; c < scene_rows(scene); c++) {
+    for (size_t c = 0; c < scene->rows; c++) {
         double *target = step->target[c];
         double gap = motion->gap[c];
         double travel = h * motion->gap_rate[c];
@@ -109,7 +109,7 @@ NOT_INLINE static void take_with_friction(struct contact_step *step, const struc
 {
     midpoint_take(&step->midpoint, scene, motion, step->force);
     friction_step_take(step->friction);
-    for (size_t row = scene->contacts; scene->plain && row < scene_rows(scene); row++) {
+    for (size_t row = scene->contacts; scene->plain && row < scene->rows; row++) {
         motion->gap[row] += step->end_indentation[row];
         step->base[row] += step->end_indentation[row];
         step->end_indentation[row] = 0.0;
@@ -127,7 +127,7 @@ void contact_step_take(struct contact_step *step, const struct scene *scene, str
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
     midpoint_leave(&step->midpoint, scene, motion);
-    for (size_t row = scene->contacts; scene->plain && row < scene_rows(scene); row++) {
+    for (size_t row = scene->contacts; scene->plain && row < scene->rows; row++) {
         motion->gap[row] -= step->base[row];
         step->base[row] = 0.0;
     }
@@ -143,7 +143,7 @@ double contact_step_loss(const struct scene *scene, const struct motion *motion,
         size_t used = 0;
         if (!(group->set->most_damping > 0.0))
             continue;
-        for (size_t c = 0; c < scene_rows(scene); c++)
+        for (size_t c = 0; c < scene->rows; c++)
             if (group->participation[c])
                 loads[used++] = (struct kernel_load){group->participation[c], force[c]};
         sum += kernel_loss(group->set->tables[level], group->stride,
@@ -178,7 +178,7 @@ static void take_residual(const struct scene *scene, const double *force, double
     size_t n = scene->contacts;
     memset(taken, 0, n * sizeof *taken);
     for (size_t b = 0; b < n; b++) {
-        const double *by = scene->residual + b * scene_rows(scene); /* symmetric */
+        const double *by = scene->residual + b * scene->rows; /* symmetric */
         if (force[b] == 0.0)
             continue;
         for (size_t a = 0; a < n; a++)
@@ -208,7 +208,7 @@ static bool local_apart(const struct scene *scene, const double *approach, doubl
         take_residual(scene, force, taken);
         /* the update, and whether it was the last one */
         for (size_t c = 0; c < n; c++) {
-            double own = scene->residual[c * (scene_rows(scene) + 1)];
+            double own = scene->residual[c * (scene->rows + 1)];
             change[c] = (indentation[c] + own * force[c] + taken[c] - approach[c]) /
                         (1.0 + own * stiffness[c]);
             indentation[c] -= change[c];
@@ -250,7 +250,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
         for (size_t a = 0; a < n; a++) {
             excess[a] = indentation[a] - approach[a];
             for (size_t b = 0; b < n; b++) {
-                double c = scene->residual[a * scene_rows(scene) + b];
+                double c = scene->residual[a * scene->rows + b];
                 excess[a] += c * force[b];
                 matrix[a * n + b] = c * stiffness[b] + (a == b);
             }
@@ -276,7 +276,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
 
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
 {
-    return -scene->residual[contact * (scene_rows(scene) + 1)] * stiffness < BEARABLE;
+    return -scene->residual[contact * (scene->rows + 1)] * stiffness < BEARABLE;
 }
 
 /* Solves contact by contact to a relative change below `last`, or else all at once. */
@@ -320,7 +320,7 @@ static void predict(struct contact_step *step, size_t contact, const struct cont
 /* Approaches at the step's end under its forces. */
 static void find_approaches(struct contact_step *step, const struct scene *scene, int level)
 {
-    if (scene_rows(scene) == 1) {
+    if (scene->rows == 1) {
         const double *m = coupling_own(&step->coupling, level, 0)->by[NODES];
         const double *force = step->force[0];
         step->approach[0] = step->target[0][NODES] - ((m[0] * force[0] + m[1] * force[1]) +
@@ -328,7 +328,7 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
         return;
     }
     coupling_take_end(&step->coupling, scene, level, step->force, step->taken);
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
 
@@ -465,7 +465,7 @@ static bool improve_tangents(struct contact_step *step, const struct node_proble
 {
     const struct scene *scene = problem->scene;
     coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
-    for (size_t row = scene->contacts; row < scene_rows(scene); row++) {
+    for (size_t row = scene->contacts; row < scene->rows; row++) {
         const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, row)->by;
         double excess[NODES];
         for (int i = 0; i < NODES; i++)
@@ -519,7 +519,7 @@ static enum contact_step_end solve_with_friction(struct contact_step *step,
                                                  const struct contact_start *start, double last)
 {
     const struct scene *scene = problem->scene;
-    size_t count = scene->frictions, size = scene_rows(scene) * sizeof *step->force;
+    size_t count = scene->frictions, size = scene->rows * sizeof *step->force;
     double before = 0.0;
     for (int round = 0; round < MOST_ROUNDS; round++) {
         struct round_change change;
@@ -551,7 +551,7 @@ static enum contact_step_end solve_with_friction(struct contact_step *step,
 static double less_residual(const struct contact_step *step, const struct scene *scene, size_t row,
                             double approach)
 {
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     for (size_t b = row < scene->contacts ? scene->contacts : 0; b < rows; b++)
         if (b != row)
             approach -= scene->residual[row * rows + b] * step->end_force[b];
@@ -564,7 +564,7 @@ static double end_tangents(struct contact_step *step, const struct scene *scene,
                            const struct contact_start *start)
 {
     const struct scene_friction *friction = &scene->friction[i];
-    size_t rows = scene_rows(scene), row = scene_tangent(scene, i);
+    size_t rows = scene->rows, row = scene_tangent(scene, i);
     double limit = friction->coefficient * step->end_force[friction->contact];
     double moved = 0.0, stiffness[2];
     const struct friction_way way = way_of(step, scene, i, start);
@@ -606,7 +606,7 @@ static bool end_with_friction(struct contact_step *step, const struct scene *sce
     size_t n = scene->contacts;
     double approach[PERCUSS_MAX_CONTACTS];
     memcpy(approach, step->approach, n * sizeof *approach);
-    for (size_t row = n; row < scene_rows(scene); row++)
+    for (size_t row = n; row < scene->rows; row++)
         step->end_force[row] = collocation_last(step->force[row]);
     for (int round = 0; round < MOST_ROUNDS; round++) {
         double moved = 0.0;
@@ -641,7 +641,7 @@ static void find_reaches(struct contact_step *step, const struct scene *scene,
 static void find_slides(struct contact_step *step, const struct node_problem *problem)
 {
     const struct scene *scene = problem->scene;
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
     for (size_t row = scene->contacts; row < rows; row++) {
         const double *target = problem->target[row], *taken = step->taken[row];
@@ -691,7 +691,7 @@ static enum contact_step_end solve_plain(struct contact_step *step,
                                          const struct contact_start *start, double last)
 {
     const struct scene *scene = problem->scene;
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     double work = (double)(scene->frictions * rows * rows);
     if (!coulomb_prepare(&step->friction->coulomb, scene, problem->coupling, problem->level,
                          step->arena))
@@ -722,7 +722,7 @@ static enum contact_step_end solve_plain(struct contact_step *step,
 static bool end_plain(struct contact_step *step, const struct scene *scene,
                       const struct contact_start *start)
 {
-    for (size_t row = scene->contacts; row < scene_rows(scene); row++)
+    for (size_t row = scene->contacts; row < scene->rows; row++)
         step->end_force[row] = collocation_last(step->force[row]);
     double approach[PERCUSS_MAX_CONTACTS];
     for (size_t c = 0; c < scene->contacts; c++)
@@ -730,10 +730,10 @@ static bool end_plain(struct contact_step *step, const struct scene *scene,
     memcpy(step->approach, approach, scene->contacts * sizeof *approach);
     if (!find_end(step, scene))
         return false;
-    for (size_t row = scene->contacts; row < scene_rows(scene); row++)
+    for (size_t row = scene->contacts; row < scene->rows; row++)
         step->end_indentation[row] =
             less_residual(step, scene, row, step->approach[row]) -
-            scene->residual[row * (scene_rows(scene) + 1)] * step->end_force[row];
+            scene->residual[row * (scene->rows + 1)] * step->end_force[row];
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct friction_way way = way_of(step, scene, i, start);
         coulomb_end(&step->friction->coulomb, i, &way, step->force + scene_tangent(scene, i));
@@ -767,7 +767,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
 {
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     /* a level that is new to the scene */
     if (!step->coupling.level[level]) {
         enum percuss_status status =

@@ -80,7 +80,7 @@ bool coulomb_prepare(struct coulomb *coulomb, const struct scene *scene,
         for (size_t a = 0; a < 2; a++)
             for (size_t b = 0; b < 2; b++) {
                 size_t row = scene_tangent(scene, i) + a, other = scene_tangent(scene, i) + b;
-                double residual = scene->residual[row * scene_rows(scene) + other];
+                double residual = scene->residual[row * scene->rows + other];
                 double between[STEP_POINTS][NODES];
                 bool own = a == b;
                 if (!own)
@@ -300,7 +300,7 @@ static double jump_of(const struct coulomb *coulomb, const struct scene *scene, 
                       size_t tangent, double (*const force)[NODES])
 {
     size_t row = scene_tangent(scene, i);
-    const double *residual = scene->residual + (row + tangent) * scene_rows(scene) + row;
+    const double *residual = scene->residual + (row + tangent) * scene->rows + row;
     double sum = 0.0;
     for (int b = 0; b < 2; b++)
         sum += residual[b] * (coulomb->force[i][b] - product(coulomb->points->at_start, force[b]));

@@ -20,8 +20,9 @@ static bool share_modes(const struct scene *scene, size_t a, size_t b)
 /* Finds the coupled pairs. */
 static void find_pairs(struct coupling *coupling, const struct scene *scene)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     size_t count = 0;
+    coupling->blocks = n;
     for (size_t a = 0; a < n; a++) {
         coupling->first[a] = count;
         for (size_t b = 0; b < n; b++) {
@@ -30,25 +31,23 @@ static void find_pairs(struct coupling *coupling, const struct scene *scene)
             /* one of both may be a rounding */
             bool both = w != 0.0 || scene->w[b * n + a] != 0.0 || residual != 0.0 ||
                         scene->residual[b * n + a] != 0.0;
-            if (a == b)
-                coupling->own[a] = coupling->by_modes ? a : count;
-            if (a == b || both || (!coupling->by_modes && share_modes(scene, a, b)))
-                coupling->pairs[count++] = (struct coupling_pair){b, w, residual};
+            if (a != b && !both && (coupling->by_modes || !share_modes(scene, a, b)))
+                continue;
+            size_t block = a == b || coupling->by_modes ? a : coupling->blocks++;
+            coupling->pairs[count++] = (struct coupling_pair){b, block, w, residual};
         }
     }
     coupling->first[n] = count;
-    coupling->blocks = coupling->by_modes ? n : count;
 }
 
 bool coupling_create(struct coupling *coupling, const struct scene *scene, struct arena *arena)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     size_t longest = 0;
     *coupling = (struct coupling){.by_modes = n > COUPLING_FEW};
     coupling->first = arena_reserve(arena, n + 1, sizeof *coupling->first);
-    coupling->own = arena_reserve(arena, n, sizeof *coupling->own);
     coupling->pairs = arena_reserve(arena, n * n, sizeof *coupling->pairs);
-    if (!coupling->first || !coupling->own || !coupling->pairs)
+    if (!coupling->first || !coupling->pairs)
         return false;
     find_pairs(coupling, scene);
     if (!coupling->by_modes)
@@ -76,7 +75,7 @@ static void rigid_block(double w, double residual, double h, double by[STEP_POIN
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES])
 {
-    size_t at = a * scene_rows(scene) + b;
+    size_t at = a * scene->rows + b;
     rigid_block(scene->w[at], scene->residual[at], step_length(level), by);
     /* the modes that move both */
     for (size_t g = 0; g < scene->groups; g++) {
@@ -87,23 +86,20 @@ void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
     }
 }
 
-/* Finds the block of b on a among a level's blocks of all pairs. */
-static struct coupling_block *find_block(const struct coupling *coupling,
-                                         struct coupling_block *blocks, size_t a, size_t b)
+/* The pair of b among those of a; NULL: none. */
+static const struct coupling_pair *find_pair(const struct coupling *coupling, size_t a, size_t b)
 {
-    size_t p = coupling->first[a];
-    while (coupling->pairs[p].other != b)
-        p++;
-    return &blocks[p];
+    for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++)
+        if (coupling->pairs[p].other == b)
+            return &coupling->pairs[p];
+    return NULL;
 }
 
 const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
                                                   size_t a, size_t b)
 {
-    for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++)
-        if (coupling->pairs[p].other == b)
-            return &coupling->level[level][p];
-    return NULL;
+    const struct coupling_pair *pair = find_pair(coupling, a, b);
+    return pair ? &coupling->level[level][pair->block] : NULL;
 }
 
 enum percuss_status coupling_prepare(struct coupling *coupling, const struct scene *scene,
@@ -116,14 +112,13 @@ enum percuss_status coupling_prepare(struct coupling *coupling, const struct sce
     struct coupling_block *blocks = arena_reserve(arena, coupling->blocks, sizeof *blocks);
     if (!blocks)
         return PERCUSS_INTERNAL;
-    for (size_t a = 0; a < scene_rows(scene); a++) {
-        size_t own = coupling->own[a];
-        coupling_between(scene, level, a, a, blocks[own].by);
+    for (size_t a = 0; a < scene->rows; a++) {
+        coupling_between(scene, level, a, a, blocks[a].by);
         /* W, the residual flexibility and the modes' products are symmetric */
-        for (size_t p = coupling->first[a]; !coupling->by_modes && p < own; p++) {
-            size_t b = coupling->pairs[p].other;
-            coupling_between(scene, level, a, b, blocks[p].by);
-            *find_block(coupling, blocks, b, a) = blocks[p];
+        const struct coupling_pair *pair = &coupling->pairs[coupling->first[a]];
+        for (; !coupling->by_modes && pair->other < a; pair++) {
+            coupling_between(scene, level, a, pair->other, blocks[pair->block].by);
+            blocks[find_pair(coupling, pair->other, a)->block] = blocks[pair->block];
         }
     }
     coupling->level[level] = blocks;
@@ -158,9 +153,10 @@ VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t
         quad nodes = {0};
         double end = 0.0;
         for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++) {
-            size_t b = coupling->pairs[p].other;
-            if (bears[b])
-                multiply(coupling->level[level][p].by[0], force[b], &nodes, &end);
+            const struct coupling_pair *pair = &coupling->pairs[p];
+            if (bears[pair->other])
+                multiply(coupling->level[level][pair->block].by[0], force[pair->other], &nodes,
+                         &end);
         }
         QUAD(taken[a]) = nodes;
         taken[a][NODES] = end;
@@ -233,7 +229,7 @@ static void take_by_modes(const struct coupling *coupling, const struct scene *s
 {
     bool moved = false;
     memset(coupling->thrust, 0, group->stride * NODES * sizeof(double));
-    for (size_t b = 0; b < scene_rows(scene); b++)
+    for (size_t b = 0; b < scene->rows; b++)
         if (group->participation[b] && motion_bears(force[b])) {
             gather(group->stride, group->participation[b], force[b], coupling->thrust);
             moved = true;
@@ -241,7 +237,7 @@ static void take_by_modes(const struct coupling *coupling, const struct scene *s
     if (!moved)
         return;
     respond(group->set->tables[level]->response, group->stride, coupling->thrust, coupling->answer);
-    for (size_t a = 0; a < scene_rows(scene); a++)
+    for (size_t a = 0; a < scene->rows; a++)
         if (group->participation[a])
             scatter(group->stride, group->participation[a], coupling->answer, taken[a]);
 }
@@ -250,10 +246,10 @@ void coupling_take(const struct coupling *coupling, const struct scene *scene, i
                    double (*const force)[NODES], double (*taken)[STEP_POINTS])
 {
     if (!coupling->by_modes) {
-        take_by_blocks(coupling, scene_rows(scene), level, force, taken);
+        take_by_blocks(coupling, scene->rows, level, force, taken);
         return;
     }
-    take_rigid(coupling, scene_rows(scene), step_length(level), force, taken);
+    take_rigid(coupling, scene->rows, step_length(level), force, taken);
     for (size_t g = 0; g < scene->groups; g++)
         take_by_modes(coupling, scene, &scene->group[g], level, force, taken);
 }
@@ -266,8 +262,9 @@ static void end_by_blocks(const struct coupling *coupling, size_t rows, int leve
         taken[a][NODES] = 0.0;
     for (size_t a = 0; a < rows; a++)
         for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++) {
-            const double *m = coupling->level[level][p].by[NODES];
-            const double *f = force[coupling->pairs[p].other];
+            const struct coupling_pair *pair = &coupling->pairs[p];
+            const double *m = coupling->level[level][pair->block].by[NODES];
+            const double *f = force[pair->other];
             taken[a][NODES] += (m[0] * f[0] + m[1] * f[1]) + (m[2] * f[2] + m[3] * f[3]);
         }
 }
@@ -278,5 +275,5 @@ void coupling_take_end(const struct coupling *coupling, const struct scene *scen
     if (coupling->by_modes)
         coupling_take(coupling, scene, level, force, taken);
     else
-        end_by_blocks(coupling, scene_rows(scene), level, force, taken);
+        end_by_blocks(coupling, scene->rows, level, force, taken);
 }

@@ -23,6 +23,7 @@ struct coupling_block {
 /* Another row, or the row itself. */
 struct coupling_pair {
     size_t other;
+    size_t block; /* of a level: the row itself, and from the number of rows on those of others */
     double w, residual;
 };
 
@@ -30,8 +31,7 @@ struct coupling {
     bool by_modes;                             /* many rows: blocks only of each with itself */
     size_t *first;                             /* [rows + 1]: where a row's pairs begin */
     struct coupling_pair *pairs;               /* coupled ones, ascending; always with itself */
-    size_t blocks;                             /* of a level */
-    size_t *own;                               /* [row]: its own block */
+    size_t blocks;                             /* of a level: the rows' own first */
     struct coupling_block *level[STEP_LEVELS]; /* NULL: not yet */
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
@@ -48,7 +48,7 @@ enum percuss_status coupling_prepare(struct coupling *coupling, const struct sce
 static inline const struct coupling_block *coupling_own(const struct coupling *coupling, int level,
                                                         size_t row)
 {
-    return &coupling->level[level][coupling->own[row]];
+    return &coupling->level[level][row];
 }
 
 /* Effect of row b's force on row a, of few rows; NULL: none. */

@@ -24,7 +24,7 @@ static double form(size_t n, const double *m, const double *x, const double *y)
 /* 1/w for one contact, else the pseudo-inverse: motions that change no gap carry no energy. */
 static double *effective_mass(const struct scene *scene, struct arena *arena)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     double *mass = arena_take(arena, n * n, sizeof *mass);
     if (!mass)
         return NULL;
@@ -45,7 +45,7 @@ static const double NOT_DRIVEN = 1e-6;
 static void find_driven(const struct scene *scene, const double *mass, const double *x,
                         double *driven)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     double momentum[SCENE_MOST_ROWS] = {0.0};
     double largest = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -70,7 +70,7 @@ static double driven_work(const struct scene *scene, const double *mass,
     double rate[SCENE_MOST_ROWS];
     double acceleration[SCENE_MOST_ROWS];
     double sum = 0.0;
-    if (scene_rows(scene) == 1)
+    if (scene->rows == 1)
         return 0.0;
     find_driven(scene, mass, scene->gap_rate, rate);
     find_driven(scene, mass, scene->gap_acceleration, acceleration);
@@ -111,14 +111,14 @@ static double stored_energy(const struct scene *scene, const struct contact_law 
     }
     for (size_t i = 0; i < 2 * scene->frictions; i++)
         force[scene->contacts + i] = last->tangential[i];
-    return sum + 0.5 * form(scene_rows(scene), scene->residual, force, force);
+    return sum + 0.5 * form(scene->rows, scene->residual, force, force);
 }
 
 /* Work of the acceleration over the rounding of both gaps of a contact, half a bit each. */
 static double rounding_of_work(const struct scene *scene, const double *mass,
                                const struct motion *end)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     double sum = 0.0;
     for (size_t a = 0; a < n; a++) {
         double force = 0.0;
@@ -135,7 +135,7 @@ static const double ROUNDING_OF_SUM = 32.0 * DBL_EPSILON;
 bool energy_audit(const struct scene *scene, const struct energy_end *last, struct arena *arena,
                   struct impact_outcome *outcome)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     const struct motion *end = &outcome->motion;
     double *mass = effective_mass(scene, arena);
     double *travel = arena_take(arena, n, sizeof *travel);

@@ -270,7 +270,7 @@ static void move_gaps(struct motion *probe, const struct scene *scene, const str
                       double time)
 {
     probe->time = from->time + time;
-    for (size_t c = 0; c < scene_rows(scene); c++) {
+    for (size_t c = 0; c < scene->rows; c++) {
         double a = scene->gap_acceleration[c];
         probe->gap[c] = from->gap[c] + time * (from->gap_rate[c] + 0.5 * a * time);
         probe->gap_rate[c] = from->gap_rate[c] + a * time;

@@ -24,7 +24,7 @@ enum { MASS_ROUNDS = 3 };
  * it. On a long rod that is the wave impedance times the duration, far less than the rod's mass. */
 static double felt_inverse_mass(const struct scene *scene, size_t contact, double duration)
 {
-    double sum = scene->w[contact * (scene_rows(scene) + 1)];
+    double sum = scene->w[contact * (scene->rows + 1)];
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *phi = group->participation[contact];
@@ -82,7 +82,7 @@ struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, d
 /* Whether rows a and b are coupled. */
 static bool feels(const struct scene *scene, size_t a, size_t b)
 {
-    size_t at = a * scene_rows(scene) + b;
+    size_t at = a * scene->rows + b;
     if (scene->w[at] != 0.0 || scene->residual[at] != 0.0)
         return true;
     for (size_t g = 0; g < scene->groups; g++)
@@ -95,7 +95,7 @@ static bool feels(const struct scene *scene, size_t a, size_t b)
  * row of spheres each feels two others, on a beam all. One by one they cost far less. */
 double step_cost(const struct scene *scene)
 {
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     double n = (double)rows;
     double cost = 2.0 * n * n + 6.0 * n;
     for (size_t a = 0; a < rows; a++) {

@@ -66,7 +66,7 @@ double march_unknown_rate(const struct march *march, size_t contact)
     double changed = 0.0;
     double fastest = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
-        double w = scene->w[contact * scene_rows(scene) + c];
+        double w = scene->w[contact * scene->rows + c];
         changed += fabs(w) * march->outcome->tracks[c].impulse;
         double speed = fabs(scene->gap_rate[c]);
         fastest = speed > fastest ? speed : fastest;
@@ -240,6 +240,7 @@ static bool mirror_create(struct mirror *mirror, const struct scene *scene,
     *mirror = (struct mirror){.acceleration = -scene->gap_acceleration[contact]};
     /* this contact alone, its acceleration turned round */
     mirror->scene = (struct scene){.contacts = 1,
+                                   .rows = 1,
                                    .groups = scene->groups,
                                    .bodies = scene->bodies,
                                    .gap_acceleration = &mirror->acceleration};

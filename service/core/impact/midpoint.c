@@ -51,7 +51,7 @@ static void kick(const struct midpoint *midpoint, const struct scene *scene,
                  const struct scene_group *group, double *const state[2])
 {
     const double *middle = middle_of(group, midpoint->level);
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (group->participation[c] && motion_bears(midpoint->force[c]))
             kernel_kick(middle, group->stride, group->participation[c], midpoint->force[c], state);
 }
@@ -77,7 +77,7 @@ static void enter(const struct midpoint *midpoint, const struct scene *scene, si
     if (midpoint->force)
         kick(midpoint, scene, group, state);
     turn_to(midpoint, group, start, level, state);
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (group->participation[c])
             kernel_swing(middle_of(group, level), group->stride, group->participation[c],
                          (const double *const[]){state[0], state[1]}, sums[c]);
@@ -90,7 +90,7 @@ static size_t choose_one(const struct midpoint *midpoint, const struct scene *sc
                          const double *const *phi)
 {
     size_t one = NONE;
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (phi[c] && (one == NONE || motion_bears(midpoint->force[c])))
             one = c;
     return one;
@@ -119,11 +119,11 @@ static void enter_next(const struct midpoint *midpoint, const struct scene *scen
     }
     /* the others: forces before it, approaches after it */
     carry->force = midpoint->force[one];
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (c != one && phi[c] && motion_bears(midpoint->force[c]))
             kernel_kick(carry->from, group->stride, phi[c], midpoint->force[c], state);
     kernel_carry(carry, group->stride, phi[one], state, sums[one]);
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (c != one && phi[c])
             kernel_swing(carry->next, group->stride, phi[c],
                          (const double *const[]){state[0], state[1]}, sums[c]);
@@ -133,7 +133,7 @@ static void enter_next(const struct midpoint *midpoint, const struct scene *scen
 static void enter_damped(const struct scene *scene, const struct scene_group *group,
                          const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (group->participation[c])
             kernel_nodes(group->set->tables[level], group->stride, group->participation[c],
                          start[0], start[1], sums[c]);
@@ -143,7 +143,7 @@ static void enter_groups(const struct midpoint *midpoint, const struct scene *sc
                          const struct motion *motion, int level, double (*sums)[STEP_POINTS])
 {
     struct kernel_carry carry = {0};
-    memset(sums, 0, scene_rows(scene) * sizeof *sums);
+    memset(sums, 0, scene->rows * sizeof *sums);
     bool next = midpoint->force && find_turn(midpoint->level, level, &carry.turn);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
@@ -164,7 +164,7 @@ static inline bool enter_only(const struct midpoint *midpoint, const struct scen
                               double sums[STEP_POINTS])
 {
     struct kernel_carry carry;
-    if (scene_rows(scene) != 1 || midpoint->damped || !midpoint->force ||
+    if (scene->rows != 1 || midpoint->damped || !midpoint->force ||
         !find_turn(midpoint->level, level, &carry.turn))
         return false;
     carry.force = midpoint->force[0];
@@ -215,7 +215,7 @@ static void take_gaps(const struct scene *scene, struct motion *motion, int leve
                       double (*const force)[NODES])
 {
     motion_step_gaps(motion, motion, scene, level);
-    for (size_t c = 0; c < scene_rows(scene); c++)
+    for (size_t c = 0; c < scene->rows; c++)
         if (motion_bears(force[c]))
             motion_push_gaps(motion, scene, level, c, force[c]);
 }
@@ -231,7 +231,7 @@ static void take_damped(const struct scene *scene, struct motion *motion, int le
             continue;
         kernel_advance(table, group->stride, motion->q[g], motion->v[g], motion->q[g],
                        motion->v[g]);
-        for (size_t c = 0; c < scene_rows(scene); c++)
+        for (size_t c = 0; c < scene->rows; c++)
             if (group->participation[c] && motion_bears(force[c]))
                 kernel_push(table, group->stride, group->participation[c], force[c], motion->q[g],
                             motion->v[g]);
@@ -242,7 +242,7 @@ void midpoint_take(struct midpoint *midpoint, const struct scene *scene, struct 
                    double (*const force)[NODES])
 {
     midpoint->force = (const double(*)[NODES])force;
-    if (scene_rows(scene) == 1)
+    if (scene->rows == 1)
         take_gap(scene, motion, midpoint->level, force[0]);
     else
         take_gaps(scene, motion, midpoint->level, force);

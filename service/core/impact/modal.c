@@ -635,11 +635,11 @@ static bool bears(const struct modal_run *run, size_t contact)
 static void keep_work(struct modal_run *run, size_t contact, double h)
 {
     const struct scene *scene = &run->march.scene;
-    const double *w = scene->w + contact * scene_rows(scene);
+    const double *w = scene->w + contact * scene->rows;
     double rate[NODES];
     for (int i = 0; i < NODES; i++) {
         rate[i] = run->march.outcome->motion.gap_rate[contact];
-        for (size_t r = 0; r < scene_rows(scene); r++)
+        for (size_t r = 0; r < scene->rows; r++)
             for (int j = 0; j < NODES; j++)
                 rate[i] -= w[r] * h * (collocation.weight[j] - collocation.velocity[i][j]) *
                            run->step.force[r][j];
@@ -740,7 +740,7 @@ static void accept(struct modal_run *run, int level)
         keep_memory(run, start, level);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         keep_books(run, c, start, step_length(level));
-    for (size_t r = run->march.scene.contacts; r < scene_rows(&run->march.scene); r++) {
+    for (size_t r = run->march.scene.contacts; r < run->march.scene.rows; r++) {
         const struct step_values values = {run->now[r].indentation, run->step.end_indentation[r],
                                            run->step.indentation[r]};
         run->now[r] = step_values_after(&values, step_length(level));
@@ -751,8 +751,7 @@ static void accept(struct modal_run *run, int level)
 static double pressed(const struct scene *scene, size_t contact)
 {
     const struct contact_law *law = &scene->laws[contact];
-    double load =
-        -2.0 * scene->gap_acceleration[contact] / scene->w[contact * (scene_rows(scene) + 1)];
+    double load = -2.0 * scene->gap_acceleration[contact] / scene->w[contact * (scene->rows + 1)];
     return load > 0.0 ? law->operations->indentation(law, load) : 0.0;
 }
 
@@ -766,7 +765,7 @@ static void begin_friction(struct modal_run *run)
         fastest = larger(fastest, fabs(run->now[c].rate));
         at[c] = run->now[c].indentation;
     }
-    for (size_t r = scene->contacts; r < scene_rows(scene); r++) {
+    for (size_t r = scene->contacts; r < scene->rows; r++) {
         double rate;
         motion_approach(motion, scene, r, &at[r], &rate);
         run->now[r] = (struct contact_start){at[r], rate, 0.0, 0.0};
@@ -934,7 +933,7 @@ static bool run_create(struct modal_run *run, struct arena *arena)
     const struct scene *scene = &run->march.scene;
     if (!march_create(&run->march, arena))
         return false;
-    run->now = arena_take(arena, scene_rows(scene), sizeof *run->now);
+    run->now = arena_take(arena, scene->rows, sizeof *run->now);
     if (scene->frictions)
         run->depth = arena_take(arena, scene->contacts, sizeof *run->depth);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);

@@ -12,11 +12,11 @@
 bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena)
 {
     /* pairs of arrays, one behind the other */
-    motion->gap = arena_take(arena, 2 * scene_rows(scene), sizeof *motion->gap);
+    motion->gap = arena_take(arena, 2 * scene->rows, sizeof *motion->gap);
     motion->q = arena_reserve(arena, 2 * scene->groups, sizeof *motion->q);
     if (!motion->gap || !motion->q)
         return false;
-    motion->gap_rate = motion->gap + scene_rows(scene);
+    motion->gap_rate = motion->gap + scene->rows;
     motion->v = motion->q + scene->groups;
     for (size_t g = 0; g < scene->groups; g++) {
         size_t stride = scene->group[g].stride; /* whole lanes: both are aligned */
@@ -39,8 +39,8 @@ static void copy_or_clear(double *to, const double *from, size_t count)
 void motion_start(struct motion *motion, const struct scene *scene)
 {
     motion->time = 0.0;
-    copy_or_clear(motion->gap, scene->gap, scene_rows(scene));
-    copy_or_clear(motion->gap_rate, scene->gap_rate, scene_rows(scene));
+    copy_or_clear(motion->gap, scene->gap, scene->rows);
+    copy_or_clear(motion->gap_rate, scene->gap_rate, scene->rows);
     for (size_t g = 0; g < scene->groups; g++) {
         copy_or_clear(motion->q[g], scene->group[g].q, scene->group[g].stride);
         copy_or_clear(motion->v[g], scene->group[g].v, scene->group[g].stride);
@@ -50,8 +50,8 @@ void motion_start(struct motion *motion, const struct scene *scene)
 void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene)
 {
     to->time = from->time;
-    copy_or_clear(to->gap, from->gap, scene_rows(scene));
-    copy_or_clear(to->gap_rate, from->gap_rate, scene_rows(scene));
+    copy_or_clear(to->gap, from->gap, scene->rows);
+    copy_or_clear(to->gap_rate, from->gap_rate, scene->rows);
     for (size_t g = 0; g < scene->groups; g++) {
         copy_or_clear(to->q[g], from->q[g], scene->group[g].stride);
         copy_or_clear(to->v[g], from->v[g], scene->group[g].stride);
@@ -74,7 +74,7 @@ static bool turns_at_once(const struct scene_group *group, double time)
 static void move_gaps(struct motion *motion, const struct scene *scene, double time)
 {
     motion->time += time;
-    for (size_t c = 0; c < scene_rows(scene); c++) {
+    for (size_t c = 0; c < scene->rows; c++) {
         double a = scene->gap_acceleration[c];
         motion->gap[c] += time * (motion->gap_rate[c] + 0.5 * a * time);
         motion->gap_rate[c] += a * time;
@@ -157,7 +157,7 @@ void motion_step_gaps(struct motion *to, const struct motion *from, const struct
 {
     double h = step_length(level);
     to->time = from->time + h;
-    for (size_t c = 0; c < scene_rows(scene); c++) {
+    for (size_t c = 0; c < scene->rows; c++) {
         double a = scene->gap_acceleration[c];
         to->gap[c] = from->gap[c] + h * (from->gap_rate[c] + 0.5 * a * h);
         to->gap_rate[c] = from->gap_rate[c] + a * h;
@@ -178,17 +178,17 @@ void motion_push_gaps(struct motion *end, const struct scene *scene, int level, 
     double impulse;
     double travel;
     motion_integrate(force, step_length(level), &impulse, &travel);
-    const double *w = scene->w + row * scene_rows(scene); /* symmetric */
-    for (size_t a = 0; a < scene_rows(scene); a++)
+    const double *w = scene->w + row * scene->rows; /* symmetric */
+    for (size_t a = 0; a < scene->rows; a++)
         end->gap[a] += w[a] * travel;
-    for (size_t a = 0; a < scene_rows(scene); a++)
+    for (size_t a = 0; a < scene->rows; a++)
         end->gap_rate[a] += w[a] * impulse;
 }
 
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES])
 {
-    for (size_t b = 0; b < scene_rows(scene); b++) {
+    for (size_t b = 0; b < scene->rows; b++) {
         if (!motion_bears(force[b]))
             continue;
         motion_push_gaps(end, scene, level, b, force[b]);

@@ -229,7 +229,7 @@ static bool solve_apart(const struct node_problem *problem, double (*d)[NODES],
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
-    if (scene_rows(problem->scene) == 1)
+    if (problem->scene->rows == 1)
         return solve_one(problem, indentation[0], force[0], stiffness[0], iterations);
     return solve_apart(problem, indentation, force, stiffness, iterations);
 }

@@ -63,7 +63,7 @@ static bool reference_system_create(struct reference_system *system, const struc
                                     struct arena *arena)
 {
     size_t n = scene->contacts;
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     *system = (struct reference_system){.scene = scene, .rows = rows, .roots = 2};
     /* a third root function of laws that yield */
     for (size_t c = 0; c < n; c++)
@@ -324,7 +324,7 @@ static void reference_system_roots(double t, const double *y, double *values, vo
  * bodies do not move rigidly that of its contact's normal. */
 static double tolerated_mass(const struct scene *scene, size_t row)
 {
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     double w = scene->w[row * (rows + 1)];
     if (w > 0.0 || row < scene->contacts)
         return w;

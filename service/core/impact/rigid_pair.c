@@ -36,7 +36,7 @@ static bool stays_elastic(const struct scene *scene)
 
 bool impact_is_rigid_pair(const struct scene *scene)
 {
-    return scene_rows(scene) == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
+    return scene->rows == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
            !scene->laws[0].operations->remembers && stays_elastic(scene);
 }

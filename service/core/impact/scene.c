@@ -18,9 +18,9 @@ enum percuss_status scene_prepare(const struct scene *scene, int level, struct p
 
 bool scene_normals(const struct scene *scene, struct arena *arena, struct scene *normals)
 {
-    size_t n = scene->contacts, rows = scene_rows(scene);
+    size_t n = scene->contacts, rows = scene->rows;
     *normals = *scene;
-    normals->frictions = 0;
+    scene_set_frictions(normals, 0);
     normals->friction = NULL;
     if (rows == n)
         return true;

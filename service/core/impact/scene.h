@@ -43,6 +43,8 @@ struct scene_friction {
 
 struct scene {
     size_t contacts, groups, bodies;
+    size_t rows;                           /* contacts + 2 frictions; those of friction[i] are
+                                              scene_tangent(scene, i) and the next */
     size_t frictions;                      /* contacts with friction, */
     bool plain;                            /* all without the contact's own compliance */
     const double *w;                       /* rows^2, 1/kg */
@@ -57,10 +59,10 @@ struct scene {
 
 enum { SCENE_MOST_ROWS = 3 * PERCUSS_MAX_CONTACTS };
 
-/* All rows; those of friction[i] are scene_tangent(scene, i) and the next. */
-static inline size_t scene_rows(const struct scene *scene)
+static inline void scene_set_frictions(struct scene *scene, size_t frictions)
 {
-    return scene->contacts + 2 * scene->frictions;
+    scene->frictions = frictions;
+    scene->rows = scene->contacts + 2 * frictions;
 }
 
 static inline size_t scene_tangent(const struct scene *scene, size_t friction)

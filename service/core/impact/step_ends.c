@@ -180,7 +180,7 @@ bool step_ends_project_all(const struct scene *scene, const struct contact_start
             continue;
         const struct step_end end = {
             &scene->laws[c],
-            scene->residual[c * (scene_rows(scene) + 1)],
+            scene->residual[c * (scene->rows + 1)],
             {now[c].indentation, step->end_indentation[c], step->indentation[c]}};
         any = step_ends_project(&end, step->force[c]) || any;
     }

@@ -53,7 +53,7 @@ static bool create(struct tracer *tracer, struct arena *arena)
 {
     struct trace *trace = tracer->trace;
     size_t n = tracer->scene->contacts;
-    size_t rows = scene_rows(tracer->scene);
+    size_t rows = tracer->scene->rows;
     /* room for instants: the fewer the more contacts */
     tracer->room = MOST_VALUES / n;
     if (tracer->room > MOST_INSTANTS)
@@ -119,9 +119,9 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     /* the motion of the rigid body and of the residual flexibility by the forces */
     double x = 0.0;
     double v = 0.0;
-    for (size_t j = 0; j < scene_rows(scene); j++) {
-        double w = sides->w[s][c * scene_rows(scene) + j];
-        x += w * tracer->travel[j] + sides->residual[s][c * scene_rows(scene) + j] * force[j];
+    for (size_t j = 0; j < scene->rows; j++) {
+        double w = sides->w[s][c * scene->rows + j];
+        x += w * tracer->travel[j] + sides->residual[s][c * scene->rows + j] * force[j];
         v += w * tracer->impulse[j];
     }
     /* the body's modes */
@@ -208,7 +208,7 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
     if (scene_prepare(scene, level, tracer->pace) != PERCUSS_OK)
         return false;
     /* integrals of the forces */
-    for (size_t c = 0; c < scene_rows(scene); c++) {
+    for (size_t c = 0; c < scene->rows; c++) {
         double impulse = 0.0;
         double travel = 0.0;
         for (int j = 0; j < NODES; j++) {
@@ -230,7 +230,7 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 /* A logged step in parts: the cubic of a step is a cubic on each of them. */
 static bool show_step(struct tracer *tracer, const struct force_step *logged)
 {
-    size_t n = scene_rows(tracer->scene);
+    size_t n = tracer->scene->rows;
     int finer = logged->level + tracer->finer < STEP_LEVELS ? tracer->finer : 0;
     int parts = 1 << finer;
     double force[SCENE_MOST_ROWS][NODES];
@@ -274,7 +274,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     }
     /* the rest is shorter than a step */
     double left = end - tracer->now.time;
-    for (size_t c = 0; c < scene_rows(tracer->scene); c++)
+    for (size_t c = 0; c < tracer->scene->rows; c++)
         tracer->travel[c] += left * tracer->impulse[c];
     motion_advance(&tracer->now, tracer->scene, left);
     sample(tracer, tracer->none, tracer->none, tracer->none);

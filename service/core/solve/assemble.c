@@ -230,7 +230,7 @@ static bool fill_friction(struct assembly *assembly, const struct problem *probl
                                               .coefficient = of->coefficient,
                                               .ratio = {of->ratio[0], of->ratio[1], of->ratio[2]}};
     }
-    assembly->scene.frictions = n;
+    scene_set_frictions(&assembly->scene, n);
     assembly->scene.plain = problem->request->options.friction == PERCUSS_FRICTION_PLAIN;
     assembly->scene.friction = friction;
     return true;
@@ -243,6 +243,7 @@ static bool fill_scene(struct assembly *assembly, const struct problem *problem)
     /* gaps, wider by the depth of dents; tangents begin with no displacement */
     double *gap = arena_take(problem->arena, rows, sizeof *gap);
     double *acceleration = arena_take(problem->arena, rows, sizeof *acceleration);
+    assembly->scene.contacts = n;
     if (!gap || !acceleration || !fill_friction(assembly, problem))
         return false;
     for (size_t c = 0; c < n; c++) {
@@ -250,7 +251,6 @@ static bool fill_scene(struct assembly *assembly, const struct problem *problem)
         acceleration[c] = problem->request->contacts[c].gap_acceleration;
     }
     /* all else is the problem's */
-    assembly->scene.contacts = n;
     assembly->scene.bodies = problem->body_count;
     assembly->scene.w = problem->row_w;
     assembly->scene.gap = gap;

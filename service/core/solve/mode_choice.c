@@ -33,7 +33,7 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
 {
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double stiffness = scale.force / scale.indentation;
-    double w = scene->w[contact * (scene_rows(scene) + 1)];
+    double w = scene->w[contact * (scene->rows + 1)];
     return (struct demand){.load = load,
                            .weight = HERTZ_SLOW_INERTIA * stiffness * stiffness * w,
                            .delay = HERTZ_SLOW_VISCOSITY * scale.duration};
@@ -48,7 +48,7 @@ static size_t find_demands(const struct problem *problem, const struct scene *sc
     double rate = 0.0;
     for (size_t c = 0; c < scene->contacts; c++)
         rate = fmin(rate, scene->gap_rate[c]);
-    for (size_t r = 0; rate < 0.0 && r < scene_rows(scene); r++) {
+    for (size_t r = 0; rate < 0.0 && r < scene->rows; r++) {
         const struct family_load *load = problem_load(problem, r, body, family);
         if (!load)
             continue;
@@ -297,8 +297,10 @@ bool mode_choice_leave_out(const struct problem *problem, const struct body_stat
 /* Slower than the contact, as in impact_scale.c: omega duration < 1. */
 bool mode_choice_returns(const struct problem *problem, size_t contact, size_t body, size_t family)
 {
-    const struct scene rigid = {
-        .contacts = problem->contact_count, .w = problem->w, .laws = problem->contact_model.laws};
+    const struct scene rigid = {.contacts = problem->contact_count,
+                                .rows = problem->contact_count,
+                                .w = problem->w,
+                                .laws = problem->contact_model.laws};
     double w = problem->w[contact * (problem->contact_count + 1)];
     double duration = impact_scale_of(&rigid, contact, problem->gap_rate[contact]).duration;
     const struct prepared_family *known =

@@ -88,7 +88,7 @@ static double pressed_rate(const struct scene *scene, size_t contact, double rat
     double pressing = fmax(0.0, -scene->gap_acceleration[contact]);
     if (pressing == 0.0)
         return rate;
-    double load = 2.0 * pressing / scene->w[contact * (scene_rows(scene) + 1)];
+    double load = 2.0 * pressing / scene->w[contact * (scene->rows + 1)];
     return sqrt(rate * rate + 2.0 * pressing * law->operations->indentation(law, load));
 }
 
@@ -179,7 +179,7 @@ static bool radiation_add_group(struct arena *arena, const struct radiator *radi
                                 struct oscillators *set, const double *factor, size_t column,
                                 struct assembly *assembly, double *residual)
 {
-    size_t n = scene_rows(&assembly->scene);
+    size_t n = assembly->scene.rows;
     double omega = set->omega[0];
     double scale = omega * sqrt(radiator->waves.lag * omega * M_SQRT1_2);
     /* one oscillator for all contacts */

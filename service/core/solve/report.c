@@ -715,7 +715,7 @@ enum percuss_status report_trace(const struct problem *problem, const struct sol
 {
     struct arena *arena = problem->arena;
     const struct scene *scene = &solution->assembly->scene;
-    struct force_log log = force_log_make(arena, scene_rows(scene));
+    struct force_log log = force_log_make(arena, scene->rows);
     log.dents = true;
     struct impact_settings settings = {.accuracy = solution->step_accuracy,
                                        .horizon = attempt_horizon(problem, scene),

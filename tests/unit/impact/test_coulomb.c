@@ -17,7 +17,7 @@ static void sphere_init(struct toy *toy, struct scene_friction *friction, double
 {
     toy_init(toy, 1);
     *friction = (struct scene_friction){.coefficient = mu, .ratio = {0.8, 0.0, 0.8}};
-    toy->scene.frictions = 1;
+    scene_set_frictions(&toy->scene, 1);
     toy->scene.friction = friction;
     toy->scene.plain = true;
     toy->w[4] = toy->w[8] = 3.5;
@@ -149,7 +149,7 @@ static void in_a_groove(void **state)
         for (size_t c = 0; c < 2; c++)
             friction[c] =
                 (struct scene_friction){.contact = c, .coefficient = mu, .ratio = {0.8, 0.0, 0.8}};
-        toy.scene.frictions = 2;
+        scene_set_frictions(&toy.scene, 2);
         toy.scene.friction = friction;
         toy.scene.plain = true;
         for (size_t a = 0; a < ROWS; a++)
@@ -181,7 +181,7 @@ static void two_of_one_body(void **state)
             {.contact = 0, .coefficient = MU, .ratio = {0.8, 0.0, 0.8}},
             {.contact = 1, .coefficient = MU, .ratio = {0.8, 0.0, 0.8}}};
         toy_init(&toy, 2);
-        toy.scene.frictions = 2;
+        scene_set_frictions(&toy.scene, 2);
         toy.scene.friction = friction;
         toy.scene.plain = true;
         toy.laws[1] = contact_law_hertz(3.0);

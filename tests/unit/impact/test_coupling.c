@@ -152,7 +152,8 @@ static void blocks_are_those_of_pairs(void **state)
             for (size_t b = 0; b < 3; b++) {
                 double by[STEP_POINTS][NODES];
                 coupling_between(&toy.scene, level, a, b, by);
-                const struct coupling_block *block = coupling.level[level] + coupling.first[a] + b;
+                const struct coupling_block *block = coupling_between_two(&coupling, level, a, b);
+                assert_non_null(block);
                 assert_memory_equal(block->by, by, sizeof by);
             }
     }

@@ -160,7 +160,7 @@ static void draw_motion(uint64_t *r, struct drawn_toy *drawn)
         toy->gap_rate[c] = uniform(r, c ? -1.0 : -1.5, c ? 0.3 : -0.7);
         toy->gap_acceleration[c] = one_in(r, 4) ? uniform(r, -0.1, 0.1) : 0.0;
     }
-    for (size_t row = contacts; row < scene_rows(&toy->scene); row++)
+    for (size_t row = contacts; row < toy->scene.rows; row++)
         toy->gap_rate[row] = one_in(r, 6) ? 0.0 : uniform(r, -1.5, 1.5);
 }
 
@@ -182,10 +182,13 @@ static void draw(uint64_t number, bool yields, struct drawn_toy *drawn)
             toy->laws[c] = (struct contact_law){
                 .operations = &yielding_toy, .parameters = {drawn->stiffness[c], drawn->yield[c]}};
         }
-        if ((c + 1 == contacts && !toy->scene.frictions) || !one_in(&r, 3))
-            draw_friction(&r, &drawn->friction[toy->scene.frictions++], c);
+        size_t frictions = toy->scene.frictions;
+        if ((c + 1 == contacts && !frictions) || !one_in(&r, 3)) {
+            draw_friction(&r, &drawn->friction[frictions], c);
+            scene_set_frictions(&toy->scene, frictions + 1);
+        }
     }
-    size_t rows = scene_rows(&toy->scene);
+    size_t rows = toy->scene.rows;
     draw_matrix(&r, rows, 1.0, 0.35, toy->w);
     if (one_in(&r, 2))
         draw_matrix(&r, rows, 0.025, 0.35, toy->residual);
@@ -338,7 +341,7 @@ static void begin(struct program *p, const struct drawn_toy *drawn, double depth
     memset(p, 0, sizeof *p);
     p->drawn = drawn;
     p->scene = scene;
-    for (size_t row = 0; row < scene_rows(scene); row++) {
+    for (size_t row = 0; row < scene->rows; row++) {
         p->g[row] = scene->gap[row];
         p->rate[row] = scene->gap_rate[row];
     }
@@ -362,7 +365,7 @@ static void begin(struct program *p, const struct drawn_toy *drawn, double depth
 /* d of a row: its approach less what the residual flexibility takes. */
 static double local(const struct program *p, size_t row)
 {
-    size_t rows = scene_rows(p->scene);
+    size_t rows = p->scene->rows;
     double d = -p->g[row];
     for (size_t k = 0; k < MODES; k++)
         d -= p->drawn->participation[row * MODES + k] * p->q[k];
@@ -390,7 +393,7 @@ static double improve(struct program *p)
         double u[2] = {local(p, row), local(p, row + 1)};
         walk(&p->patch[i], local(p, scene->friction[i].contact), u, p->cell[i], next + row);
     }
-    for (size_t row = 0; row < scene_rows(scene); row++) {
+    for (size_t row = 0; row < scene->rows; row++) {
         change = fmax(change, fabs(next[row] - p->force[row]));
         p->force[row] = next[row];
     }
@@ -424,7 +427,7 @@ static void find_forces(struct program *p)
 
 static void kick(struct program *p, double h)
 {
-    size_t rows = scene_rows(p->scene);
+    size_t rows = p->scene->rows;
     for (size_t row = 0; row < rows; row++) {
         p->rate[row] += h * p->scene->gap_acceleration[row];
         p->impulse[row] += h * p->force[row];
@@ -437,7 +440,7 @@ static void kick(struct program *p, double h)
 
 static void swing(struct program *p, double h)
 {
-    for (size_t row = 0; row < scene_rows(p->scene); row++)
+    for (size_t row = 0; row < p->scene->rows; row++)
         p->g[row] += h * p->rate[row];
     for (size_t k = 0; k < MODES; k++) {
         double omega = p->drawn->omega[k], fade = p->drawn->zeta * omega;
@@ -519,7 +522,7 @@ static void find_swing(const struct program *p, size_t k, double h, double *stay
 
 static void find_response(const struct program *p, struct sweep *sweep)
 {
-    size_t rows = scene_rows(p->scene);
+    size_t rows = p->scene->rows;
     const double *phi = p->drawn->participation;
     for (size_t r = 0; r < rows; r++)
         for (size_t s = 0; s < rows; s++) {
@@ -536,7 +539,7 @@ static void find_response(const struct program *p, struct sweep *sweep)
 /* The change of d without the forces that are sought. */
 static void find_free(const struct program *p, struct sweep *sweep)
 {
-    size_t rows = scene_rows(p->scene);
+    size_t rows = p->scene->rows;
     for (size_t r = 0; r < rows; r++) {
         double h = sweep->h, u = moved(p, r), stay, go, *to = &sweep->free[r];
         *to = sweep->flexible ? u - sweep->u[r]
@@ -554,7 +557,7 @@ static void find_free(const struct program *p, struct sweep *sweep)
 static double slip_of(const struct program *p, const struct sweep *sweep, size_t row)
 {
     double slip = sweep->free[row];
-    for (size_t s = 0; s < scene_rows(p->scene); s++)
+    for (size_t s = 0; s < p->scene->rows; s++)
         slip -= sweep->response[row][s] * p->force[s];
     return slip;
 }
@@ -590,7 +593,7 @@ static void solve_plainly(struct program *p, const struct drawn_toy *drawn, doub
     sweep.h = window / steps;
     begin(p, drawn, 1.0);
     sweep.flexible = p->scene->residual[0] > 0.0;
-    for (size_t row = 0; row < scene_rows(p->scene); row++)
+    for (size_t row = 0; row < p->scene->rows; row++)
         sweep.u[row] = moved(p, row);
     find_response(p, &sweep);
     for (int i = 0; i < steps; i++) {
@@ -600,7 +603,7 @@ static void solve_plainly(struct program *p, const struct drawn_toy *drawn, doub
             assert_true(round < 2000);
         for (size_t c = 0; c < p->scene->contacts; c++)
             p->branch[c] = branch_at(&p->scene->laws[c], local(p, c), p->branch[c].largest);
-        for (size_t row = p->scene->contacts; row < scene_rows(p->scene); row++)
+        for (size_t row = p->scene->contacts; row < p->scene->rows; row++)
             p->lost +=
                 (sweep.flexible ? 0.5 * (p->force[row] + sweep.before[row]) : p->force[row]) *
                 slip_of(p, &sweep, row);
@@ -642,7 +645,7 @@ static void compare(uint64_t number, bool yields, struct drawn_toy *drawn, doubl
 {
     static struct program program;
     draw(number, yields, drawn);
-    size_t rows = scene_rows(&drawn->toy.scene);
+    size_t rows = drawn->toy.scene.rows;
     struct impact_outcome outcome = toy_run(&drawn->toy, ACCURACY, HORIZON);
     const struct impact_energy *energy = &outcome.energy;
     double scale = 0.0;
@@ -700,7 +703,7 @@ static void compare_plainly(uint64_t number, bool yields, struct drawn_toy *draw
     static struct program coarse, fine;
     draw(number, yields, drawn);
     drawn->toy.scene.plain = true;
-    size_t rows = scene_rows(&drawn->toy.scene);
+    size_t rows = drawn->toy.scene.rows;
     struct impact_outcome outcome = toy_run(&drawn->toy, ACCURACY, HORIZON);
     const struct impact_energy *energy = &outcome.energy;
     double scale = 0.0;

@@ -19,7 +19,7 @@ static struct impact_outcome hit(struct toy *toy, struct scene_friction *frictio
 {
     toy_init(toy, 1);
     *friction = (struct scene_friction){.coefficient = MU, .ratio = {KAPPA, 0.0, KAPPA}};
-    toy->scene.frictions = 1;
+    scene_set_frictions(&toy->scene, 1);
     toy->scene.friction = friction;
     toy->w[4] = toy->w[8] = 3.5;
     toy->gap_rate[0] = -1.0;
@@ -83,7 +83,7 @@ static void without_slip(void **state)
     struct scene_friction friction;
     toy_init(&toy, 1);
     friction = (struct scene_friction){.coefficient = 1e3, .ratio = {KAPPA, 0.0, KAPPA}};
-    toy.scene.frictions = 1;
+    scene_set_frictions(&toy.scene, 1);
     toy.scene.friction = &friction;
     toy.w[4] = toy.w[8] = 3.5;
     toy.gap_rate[0] = -1.0;
@@ -105,7 +105,7 @@ static void slid_before_the_touch(void **state)
         struct toy toy;
         struct scene_friction friction = {.coefficient = 0.3, .ratio = {KAPPA, 0.0, KAPPA}};
         toy_init(&toy, 1);
-        toy.scene.frictions = 1;
+        scene_set_frictions(&toy.scene, 1);
         toy.scene.friction = &friction;
         toy.w[4] = toy.w[8] = 3.5;
         toy.gap_rate[0] = -1.0;
@@ -144,7 +144,7 @@ static void in_a_groove(void **state)
         for (size_t c = 0; c < 2; c++)
             friction[c] = (struct scene_friction){
                 .contact = c, .coefficient = rebound[i][0], .ratio = {KAPPA, 0.0, KAPPA}};
-        toy.scene.frictions = 2;
+        scene_set_frictions(&toy.scene, 2);
         toy.scene.friction = friction;
         for (size_t a = 0; a < ROWS; a++)
             for (size_t b = 0; b < ROWS; b++)

@@ -34,6 +34,7 @@ static inline void toy_init(struct toy *toy, size_t contacts)
     }
     toy->scene = (struct scene){
         .contacts = contacts,
+        .rows = contacts,
         .bodies = 2,
         .w = toy->w,
         .residual = toy->residual,
@@ -68,9 +69,9 @@ static inline struct scene_group *toy_add(struct toy *toy, size_t body, size_t c
     group->count = count;
     group->stride = group->set->stride;
     group->body = body;
-    group->participation = arena_take(&toy->arena, scene_rows(&toy->scene), sizeof(double *));
+    group->participation = arena_take(&toy->arena, toy->scene.rows, sizeof(double *));
     assert_non_null(group->participation);
-    for (size_t c = 0; c < scene_rows(&toy->scene); c++)
+    for (size_t c = 0; c < toy->scene.rows; c++)
         group->participation[c] = toy_array(toy, count, participation + c * count);
     return group;
 }

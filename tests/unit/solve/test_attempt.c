@@ -120,7 +120,7 @@ static void friction_that_is_weak(void **state)
         assert_int_equal(attempt.log->rows, 1);
         assert_true(attempt_followed_scene(search->context.problem, &attempt.assembly->scene,
                                            &attempt.outcome, &followed));
-        assert_int_equal(scene_rows(&followed), 1);
+        assert_int_equal(followed.rows, 1);
         assert_true(followed.w[0] == attempt.assembly->scene.w[0]);
     }
     search_free(search);

@@ -111,7 +111,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
  * slower the lower they are, and residual flexibility; each by its magnitude, 1/kg. */
 static double moves(const struct scene *scene, size_t a, size_t b, double duration)
 {
-    size_t at = a * scene_rows(scene) + b;
+    size_t at = a * scene->rows + b;
     double sum = fabs(scene->w[at]) + fabs(scene->residual[at]) / (duration * duration);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
@@ -131,7 +131,7 @@ static bool friction_is_weak(const struct scene *scene)
     for (size_t c = 0; scene->frictions && c < scene->contacts; c++) {
         double duration = impact_scale_of(scene, c, fabs(scene->gap_rate[c])).duration;
         double by_tangents = 0.0;
-        for (size_t r = scene->contacts; r < scene_rows(scene); r++)
+        for (size_t r = scene->contacts; r < scene->rows; r++)
             by_tangents += scene->friction[(r - scene->contacts) / 2].coefficient *
                            moves(scene, c, r, duration);
         if (!(by_tangents <= WEAK_FRICTION * moves(scene, c, c, duration)))
@@ -278,7 +278,7 @@ static size_t count_kept(const struct problem *problem, const struct impact_outc
 bool attempt_truncate(const struct problem *problem, const struct scene *scene,
                       const struct impact_outcome *answer, double allowed, struct scene *truncated)
 {
-    size_t n = scene_rows(scene);
+    size_t n = scene->rows;
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     *truncated = *scene;
     truncated->group = arena_take(problem->arena, scene->groups, sizeof *truncated->group);

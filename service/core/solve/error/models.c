@@ -57,7 +57,7 @@ static bool make_scene(const struct model_margin *margin, const struct perturbat
     size_t n = margin->problem->contact_count;
     struct arena *arena = margin->problem->arena;
     struct contact_law *laws = arena_take(arena, n, sizeof *laws);
-    size_t rows = scene_rows(scene);
+    size_t rows = scene->rows;
     double *residual = arena_take(arena, rows * rows, sizeof *residual);
     if (!laws || !residual)
         return false;
