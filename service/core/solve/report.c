@@ -458,6 +458,9 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     /* the end of the search */
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
+    if (solution->tolerance_met && solution->scene->plain)
+        return "plain friction of a contact that sticks answers to every mode that is left out "
+               "(options.friction micro-slip does not)";
     if (solution->tolerance_met)
         return "the states that the bodies begin from are as wrong as the answers that left them";
     if (!solution->error.steps.energy_closes)

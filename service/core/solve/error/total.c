@@ -103,6 +103,23 @@ static double plain_leaves(const struct solution *solution,
     return rings && contact->friction_state != PERCUSS_FRICTION_STATE_SLID ? PLAIN_MODES_LEFT : 0.0;
 }
 
+/* The largest part of that along a contact's normal, over its own scale: what it does to the
+ * restitution. */
+static double plain_restitution(const struct problem *problem, const struct solution *solution,
+                                const struct solve_result *result)
+{
+    double largest = 0.0;
+    size_t rows = problem_rows(problem);
+    for (size_t i = 0; i < problem->friction_count; i++) {
+        const struct contact_friction *friction = &problem->friction[i];
+        size_t c = friction->contact, tangent = problem->contact_count + 2 * i;
+        const double *w = problem->row_w + c * rows;
+        double share = friction->coefficient * hypot(w[tangent], w[tangent + 1]) / w[c];
+        largest = fmax(largest, plain_leaves(solution, &result->contacts[c]) * share);
+    }
+    return largest;
+}
+
 /* Of the tangential impulses: modes and steps by what they do to the normal ones, by the solutions
  * beside and by what cells and bends of the force leave; the models by the coefficient's deviation,
  * by the normal impulse, and by the unknown part of the tangential stiffness, which changes the
@@ -181,7 +198,7 @@ static void report_numerical(const struct problem *problem, const struct solutio
                              struct solve_result *result)
 {
     const struct error_budget *error = &solution->error;
-    double start = error->states.restitution;
+    double start = error->states.restitution + plain_restitution(problem, solution, result);
     result->restitution_time = error->steps.restitution;
     result->restitution_modes = error->modes.restitution;
     result->impulse_time = error->steps.impulse;
