@@ -50,7 +50,10 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
  * A law that remembers (viscoelastic bodies) has a force of the whole way since the touch: `force`
  * and `stored` are those of a sudden indentation and of what comes back of one that is held, and
  * its own force is contact/memory.h, which impact/memory_step.h follows along the steps of a single
- * contact without friction. */
+ * contact without friction.
+ *
+ * A law with `moving` has a force of the indentation and its rate; `force` is that at rest,
+ * `stored` what it gives back at rest. */
 struct contact_law_operations {
     enum percuss_contact_model model;
     enum contact_effort effort;
@@ -71,6 +74,10 @@ struct contact_law_operations {
     /* The same at several indentations at once; NULL: one by one. */
     void (*forces)(const struct contact_law *law, const double indentation[CONTACT_LAW_AT_ONCE],
                    double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE]);
+    /* Force (N), never negative, at an indentation that grows at a rate (m/s); *stiffness and
+     * *viscosity (N s/m) become its slopes by both. NULL: the force does not depend on the rate. */
+    double (*moving)(const struct contact_law *law, double indentation, double rate,
+                     double *stiffness, double *viscosity);
     /* Recoverable energy (J) stored at an indentation. */
     double (*stored)(const struct contact_law *law, double indentation);
     /* Indentation at which the loading branch has a force > 0: a starting value and a scale. */
@@ -96,6 +103,15 @@ struct contact_law contact_law_linear(double stiffness);
 /* Hertz's contact of viscoelastic bodies: `stiffness` (N/m^(3/2)) of a sudden indentation, and the
  * relaxation of both bodies together, borrowed. */
 struct contact_law contact_law_viscoelastic(double stiffness, const struct relaxation *relaxation);
+
+/* F = stiffness d^exponent (1 + dissipation d'), but at least 0: Hunt and Crossley, J. Appl. Mech.
+ * 42 (1975) 440. stiffness > 0 in N/m^exponent; exponent >= 1, 1.5 of Hertz's contact; dissipation
+ * >= 0 in s/m. */
+struct contact_law contact_law_dissipative(double stiffness, double exponent, double dissipation);
+
+/* Why a law is not followed in a scene of so many contacts, so many of them with friction, as the
+ * end of a message: "the member: what it must be". NULL: it is. */
+const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t frictions);
 
 /* The operations of each model that can be requested, with its name in capitals. */
 #define CONTACT_LAW_DECLARATION(name, text)                                                        \

@@ -33,3 +33,14 @@ const struct contact_law_operations *contact_law_asked(unsigned model)
     static const struct contact_law_operations *const all[] = {PERCUSS_CONTACT_MODEL_LIST(ENTRY)};
     return all[model < PERCUSS_CONTACT_COUNT ? model : PERCUSS_CONTACT_AUTO];
 }
+
+const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t frictions)
+{
+    if (!law->operations->remembers && !law->operations->moving)
+        return NULL;
+    if (contacts > 1)
+        return "contacts: must be one";
+    if (frictions > 0)
+        return "it has no friction: options.friction must be none, or no coefficient stated";
+    return NULL;
+}

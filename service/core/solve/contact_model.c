@@ -211,13 +211,10 @@ static const char *why_lossless(const struct problem *problem)
 {
     if (problem->request->options.method == PERCUSS_METHOD_CVODE)
         return "options.method: must be modal";
-    if (problem->contact_count > 1)
-        return "contacts: must be one";
-    if (problem->friction_count > 0)
-        return "it has no friction: options.friction must be none, or no coefficient stated";
-    if (!states_loss(problem, 0))
+    if (problem->contact_count == 1 && problem->friction_count == 0 && !states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0";
-    return NULL;
+    const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
+    return contact_law_refuses(&law, problem->contact_count, problem->friction_count);
 }
 
 /* The law of the only contact, where its bodies state a loss. */

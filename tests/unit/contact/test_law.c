@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/contact/laws.c, law_hertz.c and law_linear.c: what may be asked for is known by
- * its number; force, slope, stored energy and inverse of one law fit together. The pattern for the
- * test of a new law. */
+/* Mirrors service/core/contact/laws.c, law_hertz.c, law_linear.c and law_dissipative.c: what may be
+ * asked for is known by its number; force, slope, stored energy and inverse of one law fit
+ * together. The pattern for the test of a new law. */
 #include "check.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
@@ -66,6 +66,42 @@ static void linear_fits_together(void **state)
     near_relative(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
 }
 
+/* At rest as every elastic law; moving, slopes by indentation and rate are those of differences,
+ * and nothing pulls. */
+static void hunt_and_crossleys_fits_together(void **state)
+{
+    (void)state;
+    for (double exponent = 1.0; exponent < 3.0; exponent += 0.5) {
+        struct contact_law law = contact_law_dissipative(4e7, exponent, 0.8);
+        double (*const moving)(const struct contact_law *, double, double, double *, double *) =
+            law.operations->moving;
+        double stiffness, viscosity, ignored[2], d = 1e-4;
+        check_law(&law);
+        for (double rate = -1.2; rate < 2.0; rate += 0.4) {
+            double force = moving(&law, d, rate, &stiffness, &viscosity);
+            near_relative(force, 4e7 * pow(d, exponent) * (1.0 + 0.8 * rate), 1e-14);
+            /* central differences: second order, (1e-5)^2 */
+            double step = 1e-5 * d;
+            double by = moving(&law, d + step, rate, &ignored[0], &ignored[1]) -
+                        moving(&law, d - step, rate, &ignored[0], &ignored[1]);
+            near_relative(stiffness, by / (2.0 * step), 1e-9);
+            by = moving(&law, d, rate + 1e-3, &ignored[0], &ignored[1]) - force;
+            near_relative(viscosity, by / 1e-3, 1e-9);
+        }
+        /* it parts faster than it recovers */
+        assert_true(moving(&law, d, -1.3, &stiffness, &viscosity) == 0.0);
+        assert_true(stiffness == 0.0 && viscosity == 0.0);
+        assert_true(moving(&law, -d, 1.0, &stiffness, &viscosity) == 0.0);
+        assert_true(stiffness == 0.0 && viscosity == 0.0);
+        /* followed alone and without friction */
+        assert_null(contact_law_refuses(&law, 1, 0));
+        assert_string_equal(contact_law_refuses(&law, 2, 0), "contacts: must be one");
+        assert_non_null(contact_law_refuses(&law, 1, 1));
+    }
+    const struct contact_law elastic = contact_law_linear(1.0);
+    assert_null(contact_law_refuses(&elastic, 3, 1));
+}
+
 /* And makes a law of contacts that yield and of those that do not; the latter is sound. */
 static void every_model_is_found_by_its_number(void **state)
 {
@@ -92,6 +128,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hertz_fits_together),
         cmocka_unit_test(linear_fits_together),
+        cmocka_unit_test(hunt_and_crossleys_fits_together),
         cmocka_unit_test(every_model_is_found_by_its_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
