@@ -8,41 +8,66 @@
 
 #include "base/extremes.h"
 
-void contact_memory_begin(struct contact_memory *memory, const struct relaxation *relaxation)
+void contact_memory_begin(struct contact_memory *memory, const struct relaxation *relaxation,
+                          const struct recovery_modes *modes)
 {
     memset(memory, 0, sizeof *memory);
     memory->relaxation = relaxation;
+    memory->modes = modes;
 }
 
-/* M = 3/4 int m(y) y^(-1/2) dy = 3/2 sqrt(y_m) (center + slope y_m/3 + bend y_m^2/5), and with the
- * form above center sqrt(y_m) (1 - t/5). */
-
-void contact_memory_shrink(struct contact_memory *memory, double indentation)
+/* The terms of what was left beside those since the touch. */
+static void add_left(struct contact_memory *memory, double width)
 {
-    double root = sqrt(indentation);
-    memory->shrinks = true;
-    memory->width = indentation;
+    double center[RELAXATION_MOST], total[RELAXATION_MOST], since[2][RELAXATION_MOST];
+    double reach = larger(memory->left.reach, width);
+    recovery_modes_join(memory->modes, memory->left.center, center);
+    recovery_modes_join(memory->modes, memory->left.total, total);
+    memcpy(since[0], memory->center, sizeof since[0]);
+    memcpy(since[1], memory->total, sizeof since[1]);
     for (size_t i = 0; i < memory->relaxation->count; i++) {
-        double center = memory->center[i];
-        double curved = 5.0 * (center - memory->total[i] / root); /* center t */
-        memory->slope[i] = -(center + curved) / indentation;
-        memory->bend[i] = curved / (indentation * indentation);
+        double before[3], after[3];
+        recovery_parabola(center[i], total[i], reach, before);
+        recovery_parabola(since[0][i], since[1][i], width, after);
+        memory->center[i] = before[0] + after[0];
+        memory->slope[i] = before[1] + after[1];
+        memory->bend[i] = before[2] + after[2];
+        memory->total[i] = total[i] + since[1][i];
     }
+    memory->width = reach;
 }
 
-void contact_memory_grow(struct contact_memory *memory)
+void contact_memory_shrink(struct contact_memory *memory, double width)
 {
-    double width = memory->width;
+    if (memory->left.reach > 0.0) {
+        add_left(memory, width);
+    } else {
+        memory->width = width;
+        for (size_t i = 0; i < memory->relaxation->count; i++) {
+            double shape[3];
+            recovery_parabola(memory->center[i], memory->total[i], width, shape);
+            memory->slope[i] = shape[1];
+            memory->bend[i] = shape[2];
+        }
+    }
+    memory->shrinks = true;
+    memory->left.reach = memory->width;
+    recovery_modes_split(memory->modes, memory->total, memory->left.total);
+}
+
+void contact_memory_renew(struct contact_memory *memory)
+{
+    recovery_modes_split(memory->modes, memory->center, memory->left.center);
     memory->shrinks = false;
-    for (size_t i = 0; i < memory->relaxation->count; i++)
-        memory->total[i] =
-            1.5 * sqrt(width) *
-            (memory->center[i] + width * (memory->slope[i] / 3.0 + width * memory->bend[i] / 5.0));
+    memset(memory->center, 0, sizeof memory->center);
+    memset(memory->total, 0, sizeof memory->total);
+    memset(memory->slope, 0, sizeof memory->slope);
+    memset(memory->bend, 0, sizeof memory->bend);
 }
 
-double contact_memory_growing(double k, double indentation, double remembered, double *stiffness)
+double contact_memory_growing(double k, double raised, double remembered, double *stiffness)
 {
-    double left = indentation > 0.0 ? indentation * sqrt(indentation) - remembered : 0.0;
+    double left = raised > 0.0 ? raised - remembered : 0.0;
     *stiffness = left > 0.0 ? k : 0.0;
     return left > 0.0 ? k * left : 0.0;
 }
@@ -53,6 +78,11 @@ static double edge_of(const double f[3], double width)
     double square = f[1] * f[1] - 4.0 * f[0] * f[2];
     double falls = square >= 0.0 ? sqrt(square) - f[1] : 0.0;
     return falls > 0.0 ? smaller(2.0 * f[0] / falls, width) : width;
+}
+
+double contact_memory_edge(double indentation, const double pressed[3], double width)
+{
+    return indentation > width ? indentation : edge_of(pressed, width);
 }
 
 double contact_memory_shrinking(double k, double indentation, const double pressed[3], double width,

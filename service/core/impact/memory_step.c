@@ -22,20 +22,41 @@ bool memory_step_create(struct memory_step **step, const struct scene *scene, st
     *step = arena_take(arena, 1, sizeof **step);
     if (!*step)
         return false;
+    const struct contact_law *law = &scene->laws[0];
     (*step)->compliance = scene->residual[0];
-    memory_step_begin(*step, &scene->laws[0]);
+    (*step)->stiffness = law->parameters[0];
+    (*step)->modes = recovery_modes_make(law->table);
+    contact_memory_begin(&(*step)->memory, law->table, &(*step)->modes);
     return true;
 }
 
-void memory_step_begin(struct memory_step *step, const struct contact_law *law)
+/* Whether the surface has not recovered from an earlier touch, and the contact grows on it. */
+static bool grows_on_rest(const struct memory_step *step)
 {
-    contact_memory_begin(&step->memory, law->table);
-    step->stiffness = law->parameters[0];
-    step->parted = false;
+    return step->memory.left.reach > 0.0 && !step->memory.shrinks;
+}
+
+void memory_step_begin(struct memory_step *step, double time)
+{
+    recovery_fade(&step->memory.left, &step->modes, time - step->time);
+    step->time = time;
+    step->parted = step->memory.left.reach > 0.0;
+    step->touched_at = step->parted_at = time;
     step->largest = 0.0;
 }
 
 /* ---- Tables of a level ---- */
+
+/* Of the step, at a node or the end. */
+static double share_of(int point)
+{
+    return point < NODES ? collocation.node[point] : 1.0;
+}
+
+static double sum_of(const double by[NODES], const double values[NODES])
+{
+    return (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
+}
 
 /* z int_0^x exp(-z (x - s)) s^m ds for m = 0 to 3: by parts, each from the one before it, or for
  * short steps by its series z x^(m+1) m! sum (-z x)^n / (m + n + 1)!. */
@@ -63,13 +84,23 @@ static void integrate(double z, double x, double integral[NODES])
     }
 }
 
+static void fill_recovery(struct memory_level *table, const struct recovery_modes *modes, double h)
+{
+    for (size_t l = 0; l < modes->count; l++) {
+        double z = h / modes->time[l], integral[NODES];
+        integrate(z, 1.0, integral);
+        for (int j = 0; j < NODES; j++)
+            table->pressed[l][j] = modes->driven[l] * sum_of(collocation.monomial[j], integral);
+        for (int i = 0; i < STEP_POINTS; i++)
+            table->fades[i][l] = exp(-z * share_of(i));
+    }
+}
+
 static void fill(struct memory_level *table, const struct relaxation *relaxation, double h)
 {
-    memset(table, 0, sizeof *table);
     for (size_t k = 0; k < relaxation->count; k++)
         for (int i = 0; i < STEP_POINTS; i++) {
-            double x = i < NODES ? collocation.node[i] : 1.0;
-            double integral[NODES];
+            double x = share_of(i), integral[NODES];
             integrate(h / relaxation->time[k], x, integral);
             table->kept[k][i] = exp(-h / relaxation->time[k] * x);
             for (int j = 0; j < NODES; j++) {
@@ -86,23 +117,14 @@ bool memory_step_prepare(struct memory_step *step, int level, struct arena *aren
     if (*table)
         return true;
     *table = arena_take(arena, 1, sizeof **table);
-    if (*table)
-        fill(*table, step->memory.relaxation, step_length(level));
-    return *table != NULL;
+    if (!*table)
+        return false;
+    fill(*table, step->memory.relaxation, step_length(level));
+    fill_recovery(*table, &step->modes, step_length(level));
+    return true;
 }
 
 /* ---- Along a step ---- */
-
-/* Of the step, at a node or the end. */
-static double share_of(int point)
-{
-    return point < NODES ? collocation.node[point] : 1.0;
-}
-
-static double sum_of(const double by[NODES], const double values[NODES])
-{
-    return (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
-}
 
 /* Coefficients of the cubic through the nodes. */
 static void expand(const double values[NODES], double c[NODES])
@@ -122,11 +144,49 @@ static double turn_of(const double values[NODES])
     return square >= 0.0 && c[1] > 0.0 ? c[1] / (sqrt(square) - c[2]) : -1.0;
 }
 
-/* What the nodes' values are while the contact grows. */
-static void raise_all(const double nodes[NODES], double values[NODES])
+/* d less what is left of the free surface's displacement, as a parabola of y: w (memory.h). */
+static void press(const struct memory_step *step, int point, double d, double pressed[3])
 {
-    for (int i = 0; i < NODES; i++)
-        values[i] = nodes[i] > 0.0 ? nodes[i] * sqrt(nodes[i]) : 0.0;
+    const double *left = step->left[point];
+    pressed[0] = d - left[0];
+    pressed[1] = -1.0 - left[1];
+    pressed[2] = -left[2];
+}
+
+/* d^(3/2), or G (memory.h), which the memory of a contact that grows follows, and its slope. */
+static double raised(const struct memory_step *step, int point, double d, double *slope)
+{
+    if (grows_on_rest(step)) {
+        double pressed[3];
+        press(step, point, d, pressed);
+        return contact_memory_shrinking(1.0, d, pressed, step->memory.left.reach, slope);
+    }
+    double root = d > 0.0 ? sqrt(d) : 0.0;
+    *slope = 1.5 * root;
+    return root * d;
+}
+
+/* At the nodes, while the contact grows: those values, how far the middle is pressed, and the
+ * width.
+ */
+struct grown {
+    double raised[NODES], middle[NODES], width[NODES];
+};
+
+static struct grown grow_at_nodes(const struct memory_step *step, const double nodes[NODES])
+{
+    struct grown grown;
+    for (int i = 0; i < NODES; i++) {
+        double slope, pressed[3];
+        grown.raised[i] = raised(step, i, nodes[i], &slope);
+        grown.middle[i] = grown.width[i] = nodes[i];
+        if (!grows_on_rest(step))
+            continue;
+        press(step, i, nodes[i], pressed);
+        grown.middle[i] = larger(pressed[0], 0.0);
+        grown.width[i] = contact_memory_edge(nodes[i], pressed, step->memory.left.reach);
+    }
+    return grown;
 }
 
 /* Term k at a share x of the step. */
@@ -142,18 +202,21 @@ static double memory_at(double z, double x, double start, const double values[NO
  * nodes. False: it does not turn on the step. */
 static bool find_turn(struct memory_step *step, int level, const double nodes[NODES])
 {
-    double values[NODES], x = turn_of(nodes);
     step->turn = INFINITY;
-    if (step->memory.shrinks || !(x > 0.0 && x < 1.0 && collocation_value(nodes, x) > 0.0))
+    if (step->memory.shrinks)
         return false;
-    raise_all(nodes, values);
+    const struct grown grown = grow_at_nodes(step, nodes);
+    double x = turn_of(grown.width);
+    if (!(x > 0.0 && x < 1.0 && collocation_value(grown.width, x) > 0.0))
+        return false;
     step->turned = step->memory;
     for (size_t k = 0; k < step->memory.relaxation->count; k++) {
         double z = step_length(level) / step->memory.relaxation->time[k];
-        step->turned.center[k] = memory_at(z, x, step->memory.center[k], nodes);
-        step->turned.total[k] = memory_at(z, x, step->memory.total[k], values);
+        step->turned.center[k] = memory_at(z, x, step->memory.center[k], grown.middle);
+        step->turned.total[k] = memory_at(z, x, step->memory.total[k], grown.raised);
     }
-    contact_memory_shrink(&step->turned, collocation_value(nodes, x));
+    recovery_fade(&step->turned.left, &step->modes, step_length(level) * x);
+    contact_memory_shrink(&step->turned, collocation_value(grown.width, x));
     step->turn = x;
     return true;
 }
@@ -192,19 +255,11 @@ static struct recollection recall_turned(const struct memory_step *step,
         double share = memory->relaxation->share[k];
         double z = step->length / memory->relaxation->time[k];
         double kept = exp(-z * (share_of(point) - step->turn));
-        sum.remembered += share * table->kept[k][point] * memory->center[k];
+        sum.remembered += share * table->kept[k][point] * (memory->center[k] + step->middle[k]);
         sum.slope += share * (kept * turned->slope[k] - (1.0 - kept));
         sum.bend += share * kept * turned->bend[k];
     }
     return sum;
-}
-
-/* d^(3/2), which the memory of a contact that grows follows, and its slope. */
-static double raised(double d, double *slope)
-{
-    double root = d > 0.0 ? sqrt(d) : 0.0;
-    *slope = 1.5 * root;
-    return root * d;
 }
 
 /* The values that the memory at a point follows: those of all nodes, and their slopes. */
@@ -227,15 +282,15 @@ static double force_at(const struct memory_step *step, const struct memory_level
         values[j] = nodes[j];
         rise[j] = 1.0;
         if (!depths)
-            values[j] = raised(nodes[j], &rise[j]);
+            values[j] = raised(step, j, nodes[j], &rise[j]);
     }
     double remembered = sum.remembered + sum_of(table->all[point], values);
     if (depths) {
         const double pressed[3] = {d - remembered, -1.0 - sum.slope, -sum.bend};
         force = contact_memory_shrinking(step->stiffness, d, pressed, memory->width, &slope);
     } else {
-        force = contact_memory_growing(step->stiffness, d, remembered, &slope);
-        raised(d, &own);
+        double grown = raised(step, point, d, &own);
+        force = contact_memory_growing(step->stiffness, grown, remembered, &slope);
     }
     for (int j = 0; j < NODES; j++)
         slopes[j] = -slope * table->all[point][j] * rise[j];
@@ -298,6 +353,17 @@ static bool solve(struct memory_step *step, const struct memory_level *table,
  * turn by far less than the one before. */
 enum { TURN_ROUNDS = 3 };
 
+/* What is left of the surface on the step. */
+static void find_left(struct memory_step *step, const struct memory_level *table)
+{
+    memset(step->middle, 0, sizeof step->middle);
+    if (!grows_on_rest(step))
+        return;
+    for (int point = 0; point < STEP_POINTS; point++)
+        recovery_shape(&step->memory.left, &step->modes, table->fades[point], step->left[point]);
+    recovery_modes_join(&step->modes, step->memory.left.center, step->middle);
+}
+
 bool memory_step_solve(struct memory_step *step, int level, const double (*coupling)[NODES],
                        const double target[NODES], double last, double d[NODES],
                        double force[NODES], unsigned long *iterations)
@@ -305,6 +371,7 @@ bool memory_step_solve(struct memory_step *step, int level, const double (*coupl
     const struct memory_level *table = step->levels[level];
     step->length = step_length(level);
     step->turn = INFINITY;
+    find_left(step, table);
     if (!solve(step, table, coupling, target, last, d, force, iterations))
         return false;
     for (int round = 0; round < TURN_ROUNDS; round++) {
@@ -334,13 +401,6 @@ bool memory_step_end(const struct memory_step *step, int level, const double nod
         return true;
     }
     return false;
-}
-
-bool memory_step_regrows(const struct memory_step *step, double end)
-{
-    if (step->memory.shrinks)
-        return end > step->memory.width;
-    return step->turn < 1.0 && end > step->turned.width;
 }
 
 /* ---- Accepted steps ---- */
@@ -405,6 +465,8 @@ static double parting(const double forces[NODES])
 static void note_force(struct memory_step *step, const struct memory_taken *taken)
 {
     bool bears = taken->end_force > 0.0 || largest_of(taken->forces) > 0.0;
+    if (!bears && step->largest == 0.0)
+        step->touched_at = step->parted_at = taken->time + step_length(taken->level);
     step->work += work_of(taken);
     step->force = taken->end_force;
     if (bears)
@@ -414,18 +476,46 @@ static void note_force(struct memory_step *step, const struct memory_taken *take
     step->parted = !(taken->end_force > 0.0);
 }
 
-void memory_step_take(struct memory_step *step, const struct memory_taken *taken)
+bool memory_step_renews(const struct memory_step *step, double last, double end, double end_force)
+{
+    if (step->memory.shrinks)
+        return end > last;
+    return step->memory.left.reach > 0.0 && step->parted && end_force > 0.0;
+}
+
+/* The modes of recovery over a step that the forces press, from the memory where it begins. */
+static void take_left(struct memory_step *step, const struct memory_taken *taken, bool turns)
+{
+    struct recovery *left = &step->memory.left;
+    const struct memory_level *table = step->levels[taken->level];
+    bool shrinks = step->memory.shrinks || turns;
+    double since[RELAXATION_MOST];
+    recovery_modes_split(&step->modes, step->memory.total, since);
+    for (size_t l = 0; l < step->modes.count; l++) {
+        double kept = table->fades[NODES][l];
+        if (turns)
+            left->total[l] += since[l];
+        left->total[l] *= kept;
+        left->center[l] *= kept;
+        if (shrinks)
+            left->total[l] += sum_of(table->pressed[l], taken->forces) / step->stiffness;
+    }
+}
+
+/* The memories over the step. */
+static void take_terms(struct memory_step *step, const struct memory_taken *taken,
+                       const struct grown *grown, bool turns)
 {
     struct contact_memory *memory = &step->memory;
     const struct memory_level *table = step->levels[taken->level];
-    bool turns = step->turn < 1.0;
-    double values[NODES];
-    note_force(step, taken);
-    raise_all(taken->nodes, values);
+    bool presses = memory->shrinks || turns;
     for (size_t k = 0; k < memory->relaxation->count; k++) {
         double kept = table->kept[k][NODES];
-        memory->center[k] = kept * memory->center[k] + sum_of(table->by[k][NODES], taken->nodes);
-        memory->total[k] = kept * memory->total[k] + sum_of(table->by[k][NODES], values);
+        if (turns)
+            memory->center[k] += step->middle[k];
+        memory->center[k] = kept * memory->center[k] +
+                            sum_of(table->by[k][NODES], presses ? taken->nodes : grown->middle);
+        memory->total[k] = kept * memory->total[k] + sum_of(table->by[k][NODES], grown->raised);
         if (turns)
             kept =
                 exp(-step_length(taken->level) / memory->relaxation->time[k] * (1.0 - step->turn));
@@ -433,12 +523,38 @@ void memory_step_take(struct memory_step *step, const struct memory_taken *taken
         memory->slope[k] = kept * from->slope[k] - (1.0 - kept);
         memory->bend[k] = kept * from->bend[k];
     }
+}
+
+/* The width of a contact that grows, at the end of the step. */
+static double width_at_end(const struct memory_step *step, double end)
+{
+    double pressed[3];
+    if (!grows_on_rest(step))
+        return end;
+    press(step, NODES, end, pressed);
+    return contact_memory_edge(end, pressed, step->memory.left.reach);
+}
+
+void memory_step_take(struct memory_step *step, const struct memory_taken *taken)
+{
+    struct contact_memory *memory = &step->memory;
+    bool turns = step->turn < 1.0;
+    const struct grown grown = grow_at_nodes(step, taken->nodes);
+    double end = width_at_end(step, taken->end), widest = peak_of(grown.width);
+    note_force(step, taken);
+    if (memory->left.reach > 0.0 || turns)
+        take_left(step, taken, turns);
+    take_terms(step, taken, &grown, turns);
     if (turns) {
         memory->shrinks = true;
-        memory->width = step->turned.width;
+        memory->width = memory->left.reach = step->turned.width;
     }
-    if (memory->shrinks && taken->end > memory->width)
-        contact_memory_grow(memory);
-    else if (!memory->shrinks && taken->end_rate < 0.0 && taken->end > 0.0)
-        contact_memory_shrink(memory, taken->end);
+    if (!memory->shrinks && taken->end_rate < 0.0 && end > 0.0)
+        contact_memory_shrink(memory, end);
+    /* a turn that was missed: at the largest width of the step */
+    if (!memory->shrinks && step->parted && memory->total[0] > 0.0 && widest > 0.0)
+        contact_memory_shrink(memory, widest);
+    if (memory->shrinks && (step->parted || taken->end_rate > 0.0))
+        contact_memory_renew(memory);
+    step->time = taken->time + step_length(taken->level);
 }

@@ -489,7 +489,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 {
     struct march *march = &run->march;
     if (run->step.memory)
-        memory_step_begin(run->step.memory, &march->scene.laws[contact]);
+        memory_step_begin(run->step.memory, time);
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
     run->projects = step_limits_open(&run->limits, &march->scene, contact, &run->scales[contact]);
     run->longest[contact] =
@@ -597,13 +597,14 @@ static double step_roughness(const struct modal_run *run)
 }
 
 /* Whether a contact that remembers bears no force any more from within the step on, and did; or
- * shrinks and then grows beyond the width from which it shrank. */
+ * begins to grow again. */
 static bool parts(const struct modal_run *run)
 {
     const struct memory_step *memory = run->step.memory;
     if (!memory->parted && !(run->step.end_force[0] > 0.0))
         return true;
-    return memory_step_regrows(memory, run->step.end_indentation[0]);
+    return memory_step_renews(memory, run->step.indentation[0][NODES - 1],
+                              run->step.end_indentation[0], run->step.end_force[0]);
 }
 
 /* The only closed contact ends inside the step: the step is cut there, as its force has no
@@ -709,6 +710,7 @@ static void keep_memory(struct modal_run *run, double start, int level)
                                        .end_force = run->step.end_force[0]};
     memory_step_take(memory, &taken);
     track->largest_force = memory->largest;
+    track->open.start = memory->touched_at;
 }
 
 /* Corrects the forces at the nodes where contacts begin or end, and at a single law's knots. */

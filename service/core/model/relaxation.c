@@ -119,6 +119,11 @@ static struct relaxation invert(const struct relaxation *series, double sign)
     return made;
 }
 
+struct relaxation relaxation_creep(const struct relaxation *relaxation)
+{
+    return invert(relaxation, -1.0);
+}
+
 /* Nearer times are the same one: their poles coincide. */
 static const double SAME_TIME = 1e-9;
 

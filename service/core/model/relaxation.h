@@ -32,6 +32,11 @@ double relaxation_loss_factor(const struct relaxation *relaxation, double omega)
  * a power of time). */
 struct relaxation relaxation_constant(double loss_factor, double omega);
 
+/* Its creep: the deformation under a sudden load grows to 1 + sum_i share_i (1 - exp(-t/time_i)) of
+ * the instantaneous one. As many terms; each time is longer than that of the same index of the
+ * modulus, and shorter than the next one. */
+struct relaxation relaxation_creep(const struct relaxation *relaxation);
+
 /* Two bodies in series, the first with `part` (0 to 1) of the instantaneous compliance: their creep
  * adds. Each has up to RELAXATION_TERMS terms. */
 struct relaxation relaxation_in_series(const struct relaxation *first, double part,

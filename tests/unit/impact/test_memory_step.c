@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/memory_step.c and contact/memory.c: viscoelastic contacts against
- * Prony's series where the indentation is held, against the circles of the contact integrated one
- * by one (Ting's rule without its parabola), and their energy. */
+/* Mirrors service/core/impact/memory_step.c, contact/memory.c and contact/recovery.c: viscoelastic
+ * contacts against Prony's series where the indentation is held, against the circles of the contact
+ * integrated one by one (Ting's rule without its parabola, and free circles), and their energy. */
 #include "impact/contact_step.h"
 #include "unit/impact/toy_scene.h"
 
@@ -38,17 +38,50 @@ static void a_held_contact_relaxes(void **state)
     toy_free(&toy);
 }
 
+/* The modes of recovery are those of time_i m_i' = sum share m - m_i: differences of terms that
+ * fade are those rates, and a load that stays adds its creep. */
+static void free_circles_recover_by_modes(void **state)
+{
+    (void)state;
+    static const struct relaxation of = {3, {0.2, 0.3, 0.3}, {0.1, 1.0, 8.0}};
+    const struct recovery_modes modes = recovery_modes_make(&of);
+    const double terms[RELAXATION_MOST] = {0.7, -0.2, 0.4}, h = 1e-4;
+    double same[RELAXATION_MOST], later[2][RELAXATION_MOST], loaded[RELAXATION_MOST];
+    struct recovery left = {.reach = 1.0};
+    recovery_modes_split(&modes, terms, left.center);
+    recovery_modes_join(&modes, left.center, same);
+    for (int side = 0; side < 2; side++) {
+        recovery_fade(&left, &modes, side ? 2.0 * h : -h);
+        recovery_modes_join(&modes, left.center, later[side]);
+    }
+    recovery_modes_join(&modes, modes.driven, loaded);
+    double u = 0.2 * 0.7 - 0.3 * 0.2 + 0.3 * 0.4;
+    for (size_t i = 0; i < 3; i++) {
+        near_relative(same[i], terms[i], 1e-13);
+        /* central differences of the second order: (h/time)^2 / 6 */
+        near_relative((later[1][i] - later[0][i]) / (2.0 * h), (u - terms[i]) / of.time[i], 1e-6);
+        /* at rest under a load 1: m_i = u = sum share m + 1 */
+        near_relative(loaded[i], 1.0 / 0.2, 1e-13);
+    }
+}
+
+/* The body that is hit: an oscillator with the participation phi, which hits the ball again. */
+struct wall {
+    double omega, phi;
+    double until; /* s; 0: a rigid wall, until the ball parts */
+};
+
 /* A unit mass at unit speed on k = 1, with circles of equal depths: their displacements u and arms
  * m, time m' = u - m, exactly for displacements linear in a step. One that is free has u - sum
  * share m = 0. Returns the restitution. */
 enum { CIRCLES = 900 };
 
-static double with_circles(const struct relaxation *of)
+static double with_circles(const struct relaxation *of, const struct wall *wall)
 {
     static double arm[RELAXATION_MOST][CIRCLES], displaced[CIRCLES];
     const double h = 4e-4, widest = 1.5;
     double kept[RELAXATION_MOST], half[RELAXATION_MOST];
-    double d = 0.0, v = 1.0, force = 0.0;
+    double x = 0.0, v = 1.0, q = 0.0, p = 0.0, force = 0.0;
     memset(arm, 0, sizeof arm);
     memset(displaced, 0, sizeof displaced);
     for (size_t k = 0; k < of->count; k++) {
@@ -59,7 +92,10 @@ static double with_circles(const struct relaxation *of)
     for (double t = 0.0;; t += h) {
         bool any = false;
         v -= 0.5 * h * force;
-        d += h * v;
+        p += 0.5 * h * (wall->phi * force - wall->omega * wall->omega * q);
+        x += h * v;
+        q += h * p;
+        double d = x - wall->phi * q;
         force = 0.0;
         for (int c = 0; c < CIRCLES; c++) {
             double y = widest * ((c + 0.5) * (c + 0.5)) / (CIRCLES * (double)CIRCLES);
@@ -85,7 +121,8 @@ static double with_circles(const struct relaxation *of)
             displaced[c] = u;
         }
         v -= 0.5 * h * force;
-        if (!any && t > 0.1)
+        p += 0.5 * h * (wall->phi * force - wall->omega * wall->omega * q);
+        if (wall->until > 0.0 ? t > wall->until : !any && t > 0.1)
             return -v;
     }
 }
@@ -112,6 +149,7 @@ static void balls_rebound_by_tings_rule(void **state)
                                               {1, {0.9}, {1.0}},
                                               {1, {0.98}, {0.5}},
                                               {3, {0.2, 0.3, 0.3}, {0.1, 1.0, 8.0}}};
+    const struct wall rigid = {0.0, 0.0, 0.0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct toy toy;
         toy_init(&toy, 1);
@@ -120,7 +158,7 @@ static void balls_rebound_by_tings_rule(void **state)
         assert_false(impact_is_rigid_pair(&toy.scene));
         struct impact_outcome fine = run(&toy, 1e-9), rough = run(&toy, 1e-3);
         const struct sub_impact *blow = &fine.tracks[0].list[0];
-        double e = fine.motion.gap_rate[0], exact = with_circles(&cases[i]);
+        double e = fine.motion.gap_rate[0], exact = with_circles(&cases[i], &rigid);
         print_message("share %.2f time %.1f: e %.6f, circles %.6f\n", cases[i].share[0],
                       cases[i].time[0], e, exact);
         assert_int_equal(fine.tracks[0].count, 1);
@@ -132,6 +170,42 @@ static void balls_rebound_by_tings_rule(void **state)
         /* the ball parts while the surface is still indented, at the end of its force */
         assert_true(blow->end > blow->compression_end && blow->end < fine.window);
         measured("parts", rough.tracks[0].list[0].end, blow->end, 0.02);
+        toy_free(&toy);
+    }
+}
+
+/* A ball on an oscillator of twice its mass, which hits it again after half a period: from within
+ * the first contact (omega 1) to 16 durations later. What is left of the first blow is there. The
+ * difference to the circles is what the parabolas leave, in the first blow too, which shifts the
+ * second one. */
+static void second_blows_find_a_surface_that_recovers(void **state)
+{
+    (void)state;
+    static const struct relaxation of[] = {
+        {1, {0.5}, {3.0}}, {1, {0.8}, {3.0}}, {3, {0.2, 0.3, 0.3}, {0.1, 1.0, 8.0}}};
+    static const struct {
+        size_t of, blows;
+        double omega;
+    } cases[] = {{0, 1, 1.0}, {0, 2, 0.5}, {1, 1, 1.0}, {1, 2, 0.5}, {2, 2, 0.5}, {2, 2, 0.2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct toy toy;
+        const struct relaxation *relaxation = &of[cases[i].of];
+        const struct wall wall = {cases[i].omega, 0.7, 1.4 * M_PI / cases[i].omega + 3.0};
+        toy_init(&toy, 1);
+        toy_add(&toy, 0, 1, &wall.omega, 0.0, &wall.phi);
+        toy.laws[0] = contact_law_viscoelastic(1.0, relaxation);
+        toy.gap_rate[0] = -1.0;
+        struct impact_outcome fine = toy_run(&toy, 1e-9, 1e3), rough = toy_run(&toy, 1e-4, 1e3);
+        double e = fine.motion.gap_rate[0], exact = with_circles(relaxation, &wall);
+        print_message("share %.2f time %.1f omega %.1f: e %.6f, circles %.6f\n",
+                      relaxation->share[0], relaxation->time[0], wall.omega, e, exact);
+        assert_int_equal(fine.tracks[0].count, cases[i].blows);
+        assert_true(fine.window < wall.until);
+        for (size_t b = 0; b < fine.tracks[0].count; b++)
+            assert_true(fine.tracks[0].list[b].end > fine.tracks[0].list[b].start);
+        measured("restitution", e, exact, 0.0013);
+        measured("with rough steps", rough.motion.gap_rate[0], e, 5e-5);
+        measured("closure", fine.energy.closure, 0.0, 1e-12);
         toy_free(&toy);
     }
 }
@@ -167,7 +241,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_held_contact_relaxes),
+        cmocka_unit_test(free_circles_recover_by_modes),
         cmocka_unit_test(balls_rebound_by_tings_rule),
+        cmocka_unit_test(second_blows_find_a_surface_that_recovers),
         cmocka_unit_test(the_energy_closes_beside_modes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
