@@ -121,6 +121,12 @@ PERCUSS_CONTACT_MODEL_LIST(CONTACT_LAW_DECLARATION)
 /* The operations of a model by its number; AUTO's for a number out of range. */
 const struct contact_law_operations *contact_law_asked(unsigned model);
 
+/* Whether its force depends on the way of the contact, or on its rate, beside the indentation. */
+static inline bool contact_law_is_lossy(const struct contact_law *law)
+{
+    return law->operations->remembers || law->operations->moving;
+}
+
 static inline double contact_law_force(const struct contact_law *law, double indentation,
                                        double *stiffness)
 {

@@ -3,6 +3,10 @@
 
 #include "impact/collocation.h"
 
+#include <math.h>
+
+#include "base/extremes.h"
+
 /* Gauss-Legendre nodes of order 8 on 0..1; all numbers to 20 digits from exact radicals. */
 const struct collocation collocation = {
     .node = {0.069431844202973712388, 0.3300094782075718676, 0.6699905217924281324,
@@ -73,4 +77,23 @@ double collocation_integral(const double values[NODES], double s)
         sum += values[j] * s * (((c[3] / 4.0 * s + c[2] / 3.0) * s + c[1] / 2.0) * s + c[0]);
     }
     return sum;
+}
+
+double collocation_turn(const double values[NODES])
+{
+    double c[NODES];
+    for (int m = 0; m < NODES; m++) {
+        c[m] = 0.0;
+        for (int j = 0; j < NODES; j++)
+            c[m] += values[j] * collocation.monomial[j][m];
+    }
+    double square = c[2] * c[2] - 3.0 * c[1] * c[3];
+    return square >= 0.0 && c[1] > 0.0 ? c[1] / (sqrt(square) - c[2]) : -1.0;
+}
+
+double collocation_peak(const double values[NODES])
+{
+    double peak = larger(collocation_value(values, 0.0), collocation_last(values));
+    double turn = collocation_turn(values);
+    return turn > 0.0 && turn < 1.0 ? larger(peak, collocation_value(values, turn)) : peak;
 }

@@ -28,6 +28,11 @@ extern const struct collocation collocation;
 double collocation_value(const double values[NODES], double s);
 double collocation_integral(const double values[NODES], double s);
 
+/* Where the polynomial turns from rising to falling, outside 0..1: nowhere on the step; and its
+ * largest value there. */
+double collocation_turn(const double values[NODES]);
+double collocation_peak(const double values[NODES]);
+
 /* The polynomial at the step's end. */
 static inline double collocation_last(const double values[NODES])
 {

@@ -76,7 +76,7 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     step->end_force = step->approach + n;
     step->end_indentation = step->end_force + n;
     step->base = step->end_indentation + n;
-    return memory_step_create(&step->memory, scene, arena) &&
+    return way_step_create(&step->way, scene, arena) &&
            coupling_create(&step->coupling, scene, arena) &&
            midpoint_create(&step->midpoint, scene, arena);
 }
@@ -336,9 +336,11 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
  * as the nodes. */
 static inline bool find_end(struct contact_step *step, const struct scene *scene)
 {
-    if (step->memory)
-        return memory_step_end(step->memory, step->level, step->indentation[0], step->approach[0],
-                               step->last_change, step->end_indentation, step->end_force);
+    if (step->way) {
+        *step->end_indentation = step->way->indentation[NODES];
+        *step->end_force = step->way->force[NODES];
+        return true;
+    }
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))
@@ -371,18 +373,21 @@ static enum contact_step_end solve_together(struct contact_step *step,
                : STEP_UNSOLVED;
 }
 
-/* Those of a single contact that remembers. */
-static enum contact_step_end solve_memory(struct contact_step *step,
-                                          const struct node_problem *problem)
+/* Those of a single contact whose force depends on its way. */
+static enum contact_step_end solve_way(struct contact_step *step,
+                                       const struct node_problem *problem)
 {
-    const double(*own)[NODES] = coupling_own(problem->coupling, problem->level, 0)->by;
-    if (!memory_step_prepare(step->memory, problem->level, step->arena))
+    const struct way_problem way = {
+        .level = problem->level,
+        .last = step->last_change,
+        .coupling = coupling_own(problem->coupling, problem->level, 0)->by,
+        .target = problem->target[0],
+    };
+    if (!way_step_prepare(step->way, problem->level, step->arena))
         return STEP_MEMORY;
     bool solved =
-        memory_step_solve(step->memory, problem->level, own, problem->target[0], step->last_change,
-                          step->indentation[0], step->force[0], &step->iterations);
-    for (int i = 0; i < NODES; i++)
-        step->stiffness[0][i] = step->memory->slope[i][i];
+        way_step_solve(step->way, &way, step->indentation[0], step->force[0], &step->iterations);
+    memcpy(step->stiffness[0], step->way->stiffness, sizeof step->stiffness[0]);
     return solved ? STEP_SOLVED : STEP_UNSOLVED;
 }
 
@@ -391,8 +396,8 @@ static inline enum contact_step_end solve_normals(struct contact_step *step,
                                                   const struct node_problem *problem,
                                                   const struct contact_start *start)
 {
-    if (step->memory)
-        return solve_memory(step, problem);
+    if (step->way)
+        return solve_way(step, problem);
     if (node_solve(problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_SOLVED;
     return solve_together(step, problem, start);

@@ -11,8 +11,8 @@
 #include "base/watch.h"
 #include "impact/coupling.h"
 #include "impact/friction_step.h"
-#include "impact/memory_step.h"
 #include "impact/midpoint.h"
+#include "impact/way_step.h"
 
 struct contact_step {
     double (*indentation)[NODES]; /* [row] local, at the nodes */
@@ -24,7 +24,7 @@ struct contact_step {
     double last_change;         /* relative, see node_solver.h */
     int level;                  /* of the step just solved */
 
-    struct memory_step *memory; /* of a contact that remembers, else NULL */
+    struct way_step *way; /* of a contact whose force depends on its way, else NULL */
     struct midpoint midpoint;
     struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */

@@ -47,7 +47,7 @@ struct impact_outcome {
     struct track *tracks;     /* [contact] */
     struct contact_law *laws; /* [contact], with their final histories */
     double plastic;           /* dissipated by yielding, J */
-    double relaxed;           /* lost in a contact that remembers, J */
+    double relaxed;           /* lost by a lossy law, J */
     double slid, sheared;     /* lost by friction, and stored in it at the end, J */
     struct impact_energy energy;
     double *vibration;         /* [body], J, at the end */

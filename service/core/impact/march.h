@@ -28,7 +28,7 @@ struct march {
     double damping;             /* taken so far, J */
     bool *closed;               /* [contact]: a sub-impact is under way */
     double *indentation;        /* [contact], local, when the window ends */
-    const double *force;        /* [contact], of those that remember, when the window ends, N */
+    const double *force;        /* [contact], of lossy laws, when the window ends, N */
     double *tangential;         /* [2 frictions], forces of the tangents then, N */
     struct flight flight;
 };

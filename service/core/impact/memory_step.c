@@ -7,27 +7,12 @@
 #include <string.h>
 
 #include "base/extremes.h"
-#include "numeric/lagrange.h"
-#include "numeric/linear.h"
 
-/* As node_solver.c. */
-enum { MAX_ITERATIONS = 40 };
-static const double ROUNDING = 1e-15;
-
-bool memory_step_create(struct memory_step **step, const struct scene *scene, struct arena *arena)
+void memory_step_create(struct memory_step *step, const struct contact_law *law)
 {
-    *step = NULL;
-    if (scene->contacts != 1 || scene->frictions || !scene->laws[0].operations->remembers)
-        return true;
-    *step = arena_take(arena, 1, sizeof **step);
-    if (!*step)
-        return false;
-    const struct contact_law *law = &scene->laws[0];
-    (*step)->compliance = scene->residual[0];
-    (*step)->stiffness = law->parameters[0];
-    (*step)->modes = recovery_modes_make(law->table);
-    contact_memory_begin(&(*step)->memory, law->table, &(*step)->modes);
-    return true;
+    *step = (struct memory_step){.stiffness = law->parameters[0],
+                                 .modes = recovery_modes_make(law->table)};
+    contact_memory_begin(&step->memory, law->table, &step->modes);
 }
 
 /* Whether the surface has not recovered from an earlier touch, and the contact grows on it. */
@@ -36,13 +21,11 @@ static bool grows_on_rest(const struct memory_step *step)
     return step->memory.left.reach > 0.0 && !step->memory.shrinks;
 }
 
-void memory_step_begin(struct memory_step *step, double time)
+bool memory_step_begin(struct memory_step *step, double time)
 {
     recovery_fade(&step->memory.left, &step->modes, time - step->time);
     step->time = time;
-    step->parted = step->memory.left.reach > 0.0;
-    step->touched_at = step->parted_at = time;
-    step->largest = 0.0;
+    return step->memory.left.reach > 0.0;
 }
 
 /* ---- Tables of a level ---- */
@@ -135,15 +118,6 @@ static void expand(const double values[NODES], double c[NODES])
             c[m] += values[j] * collocation.monomial[j][m];
 }
 
-/* Where the cubic turns from rising to falling; outside 0..1: nowhere on the step. */
-static double turn_of(const double values[NODES])
-{
-    double c[NODES];
-    expand(values, c);
-    double square = c[2] * c[2] - 3.0 * c[1] * c[3];
-    return square >= 0.0 && c[1] > 0.0 ? c[1] / (sqrt(square) - c[2]) : -1.0;
-}
-
 /* d less what is left of the free surface's displacement, as a parabola of y: w (memory.h). */
 static void press(const struct memory_step *step, int point, double d, double pressed[3])
 {
@@ -200,22 +174,22 @@ static double memory_at(double z, double x, double start, const double values[NO
 
 /* What is remembered where the contact turns from growing to shrinking, by the indentations at the
  * nodes. False: it does not turn on the step. */
-static bool find_turn(struct memory_step *step, int level, const double nodes[NODES])
+static bool find_turn(struct memory_step *step, const double nodes[NODES])
 {
     step->turn = INFINITY;
     if (step->memory.shrinks)
         return false;
     const struct grown grown = grow_at_nodes(step, nodes);
-    double x = turn_of(grown.width);
+    double x = collocation_turn(grown.width);
     if (!(x > 0.0 && x < 1.0 && collocation_value(grown.width, x) > 0.0))
         return false;
     step->turned = step->memory;
     for (size_t k = 0; k < step->memory.relaxation->count; k++) {
-        double z = step_length(level) / step->memory.relaxation->time[k];
+        double z = step_length(step->level) / step->memory.relaxation->time[k];
         step->turned.center[k] = memory_at(z, x, step->memory.center[k], grown.middle);
         step->turned.total[k] = memory_at(z, x, step->memory.total[k], grown.raised);
     }
-    recovery_fade(&step->turned.left, &step->modes, step_length(level) * x);
+    recovery_fade(&step->turned.left, &step->modes, step_length(step->level) * x);
     contact_memory_shrink(&step->turned, collocation_value(grown.width, x));
     step->turn = x;
     return true;
@@ -253,7 +227,7 @@ static struct recollection recall_turned(const struct memory_step *step,
     struct recollection sum = {0.0, 0.0, 0.0};
     for (size_t k = 0; k < memory->relaxation->count; k++) {
         double share = memory->relaxation->share[k];
-        double z = step->length / memory->relaxation->time[k];
+        double z = step_length(step->level) / memory->relaxation->time[k];
         double kept = exp(-z * (share_of(point) - step->turn));
         sum.remembered += share * table->kept[k][point] * (memory->center[k] + step->middle[k]);
         sum.slope += share * (kept * turned->slope[k] - (1.0 - kept));
@@ -298,61 +272,6 @@ static double force_at(const struct memory_step *step, const struct memory_level
     return force;
 }
 
-/* Forces at the nodes and their slopes. */
-static void find_forces(struct memory_step *step, const struct memory_level *table,
-                        const double d[NODES], double force[NODES])
-{
-    for (int i = 0; i < NODES; i++) {
-        double slopes[STEP_POINTS];
-        force[i] = force_at(step, table, i, d[i], d, slopes);
-        memcpy(step->slope[i], slopes, sizeof step->slope[i]);
-        step->slope[i][i] += slopes[NODES];
-    }
-}
-
-static double largest_of(const double values[NODES])
-{
-    double largest = 0.0;
-    for (int i = 0; i < NODES; i++)
-        largest = larger(largest, fabs(values[i]));
-    return largest;
-}
-
-/* Newton's method with the turn where it is. */
-static bool solve(struct memory_step *step, const struct memory_level *table,
-                  const double (*coupling)[NODES], const double target[NODES], double last,
-                  double d[NODES], double force[NODES], unsigned long *iterations)
-{
-    double rounding = ROUNDING * largest_of(target);
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double matrix[NODES * NODES] = {0.0}, change[NODES];
-        find_forces(step, table, d, force);
-        for (int i = 0; i < NODES; i++) {
-            change[i] = d[i] - target[i] + sum_of(coupling[i], force);
-            for (int j = 0; j < NODES; j++) {
-                for (int l = 0; l < NODES; l++)
-                    matrix[i * NODES + j] += coupling[i][l] * step->slope[l][j];
-                matrix[i * NODES + j] += i == j;
-            }
-        }
-        ++*iterations;
-        if (!linear_solve(NODES, matrix, change) || !isfinite(largest_of(change)))
-            return false;
-        for (int i = 0; i < NODES; i++)
-            d[i] -= change[i];
-        if (largest_of(change) > last * largest_of(d) && largest_of(change) > rounding)
-            continue;
-        for (int i = 0; i < NODES; i++)
-            force[i] = larger(force[i] - sum_of(step->slope[i], change), 0.0);
-        return true;
-    }
-    return false;
-}
-
-/* The force behind the turn differs little from that of a contact that grows: each round shifts the
- * turn by far less than the one before. */
-enum { TURN_ROUNDS = 3 };
-
 /* What is left of the surface on the step. */
 static void find_left(struct memory_step *step, const struct memory_level *table)
 {
@@ -364,127 +283,43 @@ static void find_left(struct memory_step *step, const struct memory_level *table
     recovery_modes_join(&step->modes, step->memory.left.center, step->middle);
 }
 
-bool memory_step_solve(struct memory_step *step, int level, const double (*coupling)[NODES],
-                       const double target[NODES], double last, double d[NODES],
-                       double force[NODES], unsigned long *iterations)
+void memory_step_start(struct memory_step *step, int level)
 {
-    const struct memory_level *table = step->levels[level];
-    step->length = step_length(level);
+    step->level = level;
     step->turn = INFINITY;
-    find_left(step, table);
-    if (!solve(step, table, coupling, target, last, d, force, iterations))
-        return false;
-    for (int round = 0; round < TURN_ROUNDS; round++) {
-        bool turned = step->turn < 1.0, turns = find_turn(step, level, d);
-        /* the forces are those without a turn, or with the one that is gone */
-        if (!turns && !turned)
-            break;
-        if (!solve(step, table, coupling, target, last, d, force, iterations))
-            return false;
-    }
-    return true;
+    find_left(step, step->levels[level]);
 }
 
-bool memory_step_end(const struct memory_step *step, int level, const double nodes[NODES],
-                     double approach, double last, double *indentation, double *force)
+void memory_step_forces(const struct memory_step *step, const double d[STEP_POINTS],
+                        double force[STEP_POINTS], double slope[STEP_POINTS][STEP_POINTS])
 {
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double slopes[STEP_POINTS], d = *indentation;
-        *force = force_at(step, step->levels[level], NODES, d, nodes, slopes);
-        double slope = slopes[NODES];
-        double change =
-            (d + step->compliance * *force - approach) / (1.0 + step->compliance * slope);
-        *indentation = d - change;
-        if (fabs(change) > last * fabs(*indentation) && fabs(change) > ROUNDING * fabs(approach))
-            continue;
-        *force = larger(*force - slope * change, 0.0);
-        return true;
+    const struct memory_level *table = step->levels[step->level];
+    for (int i = 0; i < STEP_POINTS; i++) {
+        double slopes[STEP_POINTS];
+        force[i] = force_at(step, table, i, d[i], d, slopes);
+        memcpy(slope[i], slopes, sizeof slopes);
+        slope[i][NODES] = 0.0;
+        slope[i][i] += slopes[NODES];
     }
-    return false;
+}
+
+bool memory_step_turns(struct memory_step *step, const double nodes[NODES])
+{
+    bool turned = step->turn < 1.0;
+    return find_turn(step, nodes) || turned;
 }
 
 /* ---- Accepted steps ---- */
 
-enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
-
-/* Slopes at the nodes of the polynomial through all points: under a cubic force a body moves along
- * one of the fifth degree. */
-static void find_rates(const struct memory_taken *taken, double rate[NODES])
-{
-    double place[POINTS] = {0.0}, value[POINTS] = {taken->start};
-    place[POINTS - 1] = 1.0;
-    value[POINTS - 1] = taken->end;
-    for (int j = 0; j < NODES; j++) {
-        place[j + 1] = collocation.node[j];
-        value[j + 1] = taken->nodes[j];
-    }
-    for (int i = 0; i < NODES; i++) {
-        double slope[POINTS];
-        lagrange_slopes(place, POINTS, collocation.node[i], slope);
-        rate[i] = 0.0;
-        for (int j = 0; j < POINTS; j++)
-            rate[i] += slope[j] * value[j];
-    }
-}
-
-/* The work on the local indentation. */
-static double work_of(const struct memory_taken *taken)
-{
-    double rate[NODES], sum = 0.0;
-    find_rates(taken, rate);
-    for (int i = 0; i < NODES; i++)
-        sum += collocation.weight[i] * taken->forces[i] * rate[i];
-    return sum;
-}
-
-/* The largest value of the cubic on the step. */
-static double peak_of(const double values[NODES])
-{
-    double peak = larger(collocation_value(values, 0.0), collocation_last(values));
-    double turn = turn_of(values);
-    return turn > 0.0 && turn < 1.0 ? larger(peak, collocation_value(values, turn)) : peak;
-}
-
-/* The share of the step after which no point bears a force: the line through the last two nodes
- * that do, up to the next point. */
-static double parting(const double forces[NODES])
-{
-    int last = NODES - 1;
-    while (last >= 0 && !(forces[last] > 0.0))
-        last--;
-    if (last < 0)
-        return 0.0;
-    double from = collocation.node[last];
-    double until = last + 1 < NODES ? collocation.node[last + 1] : 1.0;
-    if (last == 0 || !(forces[last - 1] > forces[last]))
-        return from;
-    double falls = (forces[last - 1] - forces[last]) / (from - collocation.node[last - 1]);
-    return smaller(from + forces[last] / falls, until);
-}
-
-static void note_force(struct memory_step *step, const struct memory_taken *taken)
-{
-    bool bears = taken->end_force > 0.0 || largest_of(taken->forces) > 0.0;
-    if (!bears && step->largest == 0.0)
-        step->touched_at = step->parted_at = taken->time + step_length(taken->level);
-    step->work += work_of(taken);
-    step->force = taken->end_force;
-    if (bears)
-        step->largest = larger(step->largest, peak_of(taken->forces));
-    if (!(taken->end_force > 0.0) && (bears || !step->parted))
-        step->parted_at = taken->time + step_length(taken->level) * parting(taken->forces);
-    step->parted = !(taken->end_force > 0.0);
-}
-
-bool memory_step_renews(const struct memory_step *step, double last, double end, double end_force)
+bool memory_step_renews(const struct memory_step *step, const struct way_taken *ends, bool parted)
 {
     if (step->memory.shrinks)
-        return end > last;
-    return step->memory.left.reach > 0.0 && step->parted && end_force > 0.0;
+        return ends->end > ends->nodes[NODES - 1];
+    return step->memory.left.reach > 0.0 && parted && ends->end_force > 0.0;
 }
 
 /* The modes of recovery over a step that the forces press, from the memory where it begins. */
-static void take_left(struct memory_step *step, const struct memory_taken *taken, bool turns)
+static void take_left(struct memory_step *step, const struct way_taken *taken, bool turns)
 {
     struct recovery *left = &step->memory.left;
     const struct memory_level *table = step->levels[taken->level];
@@ -503,7 +338,7 @@ static void take_left(struct memory_step *step, const struct memory_taken *taken
 }
 
 /* The memories over the step. */
-static void take_terms(struct memory_step *step, const struct memory_taken *taken,
+static void take_terms(struct memory_step *step, const struct way_taken *taken,
                        const struct grown *grown, bool turns)
 {
     struct contact_memory *memory = &step->memory;
@@ -535,13 +370,12 @@ static double width_at_end(const struct memory_step *step, double end)
     return contact_memory_edge(end, pressed, step->memory.left.reach);
 }
 
-void memory_step_take(struct memory_step *step, const struct memory_taken *taken)
+void memory_step_take(struct memory_step *step, const struct way_taken *taken, bool parted)
 {
     struct contact_memory *memory = &step->memory;
     bool turns = step->turn < 1.0;
     const struct grown grown = grow_at_nodes(step, taken->nodes);
-    double end = width_at_end(step, taken->end), widest = peak_of(grown.width);
-    note_force(step, taken);
+    double end = width_at_end(step, taken->end), widest = collocation_peak(grown.width);
     if (memory->left.reach > 0.0 || turns)
         take_left(step, taken, turns);
     take_terms(step, taken, &grown, turns);
@@ -552,9 +386,9 @@ void memory_step_take(struct memory_step *step, const struct memory_taken *taken
     if (!memory->shrinks && taken->end_rate < 0.0 && end > 0.0)
         contact_memory_shrink(memory, end);
     /* a turn that was missed: at the largest width of the step */
-    if (!memory->shrinks && step->parted && memory->total[0] > 0.0 && widest > 0.0)
+    if (!memory->shrinks && parted && memory->total[0] > 0.0 && widest > 0.0)
         contact_memory_shrink(memory, widest);
-    if (memory->shrinks && (step->parted || taken->end_rate > 0.0))
+    if (memory->shrinks && (parted || taken->end_rate > 0.0))
         contact_memory_renew(memory);
     step->time = taken->time + step_length(taken->level);
 }

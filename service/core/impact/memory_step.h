@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A single contact that remembers (contact/memory.h) on the steps of its contact phase. What it
- * remembers follows the cubic through the nodes exactly, so that the force at a node depends
- * linearly on the indentations d, or on their d^(3/2), of all nodes. */
+/* What a single contact remembers (contact/memory.h) along the steps of its contact phase. It
+ * follows the cubic through the nodes exactly, so that the force at a node depends linearly on the
+ * indentations d, or on their d^(3/2), of all nodes. */
 #ifndef PERCUSS_IMPACT_MEMORY_STEP_H
 #define PERCUSS_IMPACT_MEMORY_STEP_H
 
@@ -31,51 +31,49 @@ struct memory_step {
     double time;                    /* there, s from the stated instant */
     double left[STEP_POINTS][3];    /* shape of the free surface, contact/recovery.h, */
     double middle[RELAXATION_MOST]; /* and its terms in the middle where the step begins */
-    double stiffness, compliance;   /* of the law, N/m^(3/2); in series with it, m/N */
+    double stiffness;               /* of the law, N/m^(3/2) */
     struct memory_level *levels[STEP_LEVELS]; /* NULL: not yet */
-    double slope[NODES][NODES];               /* of the forces at the nodes, N/m */
-    double length;                            /* of the step, s */
+    int level;                                /* of the step */
     double turn;                  /* share of the step where it begins to shrink; > 1: nowhere */
     struct contact_memory turned; /* there */
-    bool parted;                  /* no force since, */
-    double touched_at, parted_at; /* the first force, and the end of the last one, s */
-    double largest;               /* force since the touch, N */
-    double force;                 /* at the present, N */
-    double work;                  /* of all forces on the local indentation, J */
 };
 
-/* NULL: the scene's contacts do not remember. False: out of memory. */
-bool memory_step_create(struct memory_step **step, const struct scene *scene, struct arena *arena);
+/* Of a law that remembers; the step stays where it is. */
+void memory_step_create(struct memory_step *step, const struct contact_law *law);
 
 /* Makes sure of a level. False: out of memory. */
 bool memory_step_prepare(struct memory_step *step, int level, struct arena *arena);
 
-/* The contact begins, or closes again: since the last step its surface has recovered freely. */
-void memory_step_begin(struct memory_step *step, double time);
+/* The contact begins, or closes again: since the last step its surface has recovered freely. True:
+ * and is not at rest. */
+bool memory_step_begin(struct memory_step *step, double time);
 
-/* Indentations at the nodes of a step of a prepared level, from starting values, to a relative
- * change below `last`: d_i + sum_j coupling_ij F_j = target_i. False: no solution. */
-bool memory_step_solve(struct memory_step *step, int level, const double (*coupling)[NODES],
-                       const double target[NODES], double last, double indentation[NODES],
-                       double force[NODES], unsigned long *iterations);
+/* A step of a prepared level, without a turn yet. */
+void memory_step_start(struct memory_step *step, int level);
 
-/* The same at the step's end, for the approach there. */
-bool memory_step_end(const struct memory_step *step, int level, const double nodes[NODES],
-                     double approach, double last, double *indentation, double *force);
+/* Forces (N) at the nodes and the end of the step for indentations there, and their slopes,
+ * [point][by the indentation at]. */
+void memory_step_forces(const struct memory_step *step, const double indentation[STEP_POINTS],
+                        double force[STEP_POINTS], double slope[STEP_POINTS][STEP_POINTS]);
 
-/* Whether a contact begins to grow again within the step just solved, by the indentations at its
- * last node and its end: after it has shrunk, or where it touches what was left of its surface. */
-bool memory_step_renews(const struct memory_step *step, double last, double end, double end_force);
+/* Finds the turn for the indentations at the nodes. False: there is none, and was none before. */
+bool memory_step_turns(struct memory_step *step, const double nodes[NODES]);
 
-/* One step that is accepted, which began at `time`: indentations at its start and end, there with
- * the rate and the force. */
-struct memory_taken {
+/* One step that is accepted, which began at `time`: the indentation at its end with the rate and
+ * the force there. */
+struct way_taken {
     double time;
     int level;
     const double *nodes, *forces; /* [NODES] */
-    double start, end, end_rate, end_force;
+    double end, end_rate, end_force;
 };
 
-void memory_step_take(struct memory_step *step, const struct memory_taken *taken);
+/* Whether the contact begins to grow again within the step just solved: after it has shrunk, or
+ * where it touches what was left of its surface; `parted`: it bore no force before. */
+bool memory_step_renews(const struct memory_step *step, const struct way_taken *step_ends,
+                        bool parted);
+
+/* `parted`: it bears none at the end. */
+void memory_step_take(struct memory_step *step, const struct way_taken *taken, bool parted);
 
 #endif

@@ -99,7 +99,7 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
         limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
-    double event = scene->laws[0].operations->remembers ? PARTING : limits->event;
+    double event = contact_law_is_lossy(&scene->laws[0]) ? PARTING : limits->event;
     return (struct step_limits){
         .roughness = fmin(limits->roughest, limits->roughness * root * root),
         .event_share = fmin(limits->longest_event, event * half),
@@ -488,8 +488,8 @@ static bool unload(struct modal_run *run)
 static void open_contact(struct modal_run *run, size_t contact, double time, double rate)
 {
     struct march *march = &run->march;
-    if (run->step.memory)
-        memory_step_begin(run->step.memory, time);
+    if (run->step.way)
+        way_step_begin(run->step.way, time);
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
     run->projects = step_limits_open(&run->limits, &march->scene, contact, &run->scales[contact]);
     run->longest[contact] =
@@ -596,17 +596,6 @@ static double step_roughness(const struct modal_run *run)
     return worst;
 }
 
-/* Whether a contact that remembers bears no force any more from within the step on, and did; or
- * begins to grow again. */
-static bool parts(const struct modal_run *run)
-{
-    const struct memory_step *memory = run->step.memory;
-    if (!memory->parted && !(run->step.end_force[0] > 0.0))
-        return true;
-    return memory_step_renews(memory, run->step.indentation[0][NODES - 1],
-                              run->step.end_indentation[0], run->step.end_force[0]);
-}
-
 /* The only closed contact ends inside the step: the step is cut there, as its force has no
  * derivative there. While several are closed they open and close all the time, mostly with little
  * force: all of them are in the equations throughout, and roughness alone decides. */
@@ -614,8 +603,8 @@ static bool has_event(const struct modal_run *run)
 {
     size_t closed = 0;
     bool ends = false;
-    if (run->step.memory)
-        return parts(run);
+    if (run->step.way)
+        return way_step_bends(run->step.way);
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         closed += run->march.closed[c];
         ends = ends || (run->march.closed[c] && !(run->step.end_indentation[c] > 0.0));
@@ -665,8 +654,8 @@ static void keep_slide(struct modal_run *run, size_t contact, double h)
 static double end_of(const struct modal_run *run, const struct step_values *step, double start,
                      double h)
 {
-    if (run->step.memory && run->step.memory->parted)
-        return run->step.memory->parted_at;
+    if (run->step.way && run->step.way->parted)
+        return run->step.way->parted_at;
     return start + h * (run->projects ? step_ends_release : step_values_release)(step);
 }
 
@@ -692,25 +681,18 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     run->now[c] = after;
 }
 
-/* The books of a contact that remembers: it parts before its indentation ends. */
-static void keep_memory(struct modal_run *run, double start, int level)
+/* The books of a contact whose force depends on its way: it may part before its indentation ends.
+ */
+static void keep_way(struct modal_run *run, double start, int level)
 {
-    struct memory_step *memory = run->step.memory;
+    struct way_step *way = run->step.way;
     struct track *track = &run->march.outcome->tracks[0];
     const struct step_values step = {run->now[0].indentation, run->step.end_indentation[0],
                                      run->step.indentation[0]};
-    const struct memory_taken taken = {.time = start,
-                                       .level = level,
-                                       .nodes = step.nodes,
-                                       .forces = run->step.force[0],
-                                       .start = step.start,
-                                       .end = step.end,
-                                       .end_rate =
-                                           step_values_after(&step, step_length(level)).rate,
-                                       .end_force = run->step.end_force[0]};
-    memory_step_take(memory, &taken);
-    track->largest_force = memory->largest;
-    track->open.start = memory->touched_at;
+    way_step_take(way, start, step_values_after(&step, step_length(level)).rate, step.nodes,
+                  run->step.force[0]);
+    track->largest_force = way->largest;
+    track->open.start = way->touched_at;
 }
 
 /* Corrects the forces at the nodes where contacts begin or end, and at a single law's knots. */
@@ -738,8 +720,8 @@ static void accept(struct modal_run *run, int level)
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
     run->march.damping += run->step.loss;
     outcome->steps++;
-    if (run->step.memory)
-        keep_memory(run, start, level);
+    if (run->step.way)
+        keep_way(run, start, level);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         keep_books(run, c, start, step_length(level));
     for (size_t r = run->march.scene.contacts; r < run->march.scene.rows; r++) {
@@ -826,14 +808,14 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
     return end;
 }
 
-/* At the horizon. A contact that remembers may have parted, though its surfaces have not come back
+/* At the horizon. A contact may have parted, though its surfaces have not come back
  * yet: without vibration nothing brings them together again. */
 static enum percuss_end_reason end_at_horizon(struct modal_run *run)
 {
-    const struct memory_step *memory = run->step.memory;
-    if (!memory || !memory->parted)
+    const struct way_step *way = run->step.way;
+    if (!way || !way->parted)
         return PERCUSS_END_IN_CONTACT;
-    close_contact(run, 0, memory->parted_at);
+    close_contact(run, 0, way->parted_at);
     return run->march.scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(&run->march);
 }
 
@@ -908,15 +890,13 @@ static void end_friction(struct modal_run *run)
     }
 }
 
-/* A contact that remembers has lost the work on it, but for what a held one gives back. */
-static void end_memory(struct modal_run *run)
+/* A contact whose force depends on its way has lost the work on it, but for what it gives back. */
+static void end_way(struct modal_run *run)
 {
-    const struct contact_law *law = &run->march.scene.laws[0];
-    if (!run->step.memory)
+    if (!run->step.way)
         return;
-    run->march.outcome->relaxed =
-        run->step.memory->work - law->operations->stored(law, run->march.indentation[0]);
-    run->march.force = &run->step.memory->force;
+    run->march.outcome->relaxed = way_step_lost(run->step.way, run->march.indentation[0]);
+    run->march.force = &run->step.way->now;
 }
 
 /* The window ends: contacts under load yield up to here, and all store their indentation. */
@@ -927,7 +907,7 @@ static void end_march(void *state)
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         run->march.indentation[c] = run->march.closed[c] ? run->now[c].indentation : 0.0;
     end_friction(run);
-    end_memory(run);
+    end_way(run);
 }
 
 static bool run_create(struct modal_run *run, struct arena *arena)
@@ -960,6 +940,9 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
                                  struct arena *arena, struct impact_outcome *outcome)
 {
     static const struct march_method method = {.contact_phase = contact_phase, .end = end_march};
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (contact_law_refuses(&scene->laws[c], scene->contacts, scene->frictions))
+            return PERCUSS_INTERNAL;
     struct modal_run run = {.march = {.stated = scene,
                                       .outcome = outcome,
                                       .horizon = settings->horizon,

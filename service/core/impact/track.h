@@ -29,7 +29,7 @@ struct track {
     double inertia, viscosity;
     bool stuck,
         slid; /* friction of the one under way: at some instant not all of it slid, all did */
-    double largest_force; /* of the one under way, where its law remembers; 0: else */
+    double largest_force; /* of the one under way, where its law is lossy; 0: else */
     double deepened; /* growth of the dent since the touch, m; indentations in the list count from
                        its bottom at that touch */
 };

@@ -1,9 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/memory_step.c, contact/memory.c and contact/recovery.c: viscoelastic
- * contacts against Prony's series where the indentation is held, against the circles of the contact
- * integrated one by one (Ting's rule without its parabola, and free circles), and their energy. */
+/* Mirrors service/core/impact/way_step.c and memory_step.c, contact/memory.c and
+ * contact/recovery.c: viscoelastic contacts against Prony's series where the indentation is held,
+ * against the circles of the contact integrated one by one (Ting's rule without its parabola, and
+ * free circles), and their energy. */
 #include "impact/contact_step.h"
 #include "unit/impact/toy_scene.h"
 
@@ -12,27 +13,27 @@ static void a_held_contact_relaxes(void **state)
 {
     (void)state;
     static const struct relaxation of = {2, {0.3, 0.4}, {0.2, 3.0}};
-    const double held[NODES] = {1.7, 1.7, 1.7, 1.7};
+    const double held[STEP_POINTS] = {1.7, 1.7, 1.7, 1.7, 1.7};
     struct toy toy;
-    struct memory_step *step;
+    struct way_step *step;
     toy_init(&toy, 1);
     toy.laws[0] = contact_law_viscoelastic(2.0, &of);
-    assert_true(memory_step_create(&step, &toy.scene, &toy.arena));
+    assert_true(way_step_create(&step, &toy.scene, &toy.arena));
     double time = 0.0;
-    for (int level = 6; level >= -0; level--) {
-        double force[NODES], none[NODES][NODES] = {{0}}, d[NODES], end = 1.7, end_force;
+    for (int level = 6; level >= 0; level--) {
+        const double none[STEP_POINTS][NODES] = {{0}};
+        const struct way_problem problem = {level, 1e-9, none, held};
+        double force[NODES], d[NODES];
         unsigned long iterations = 0;
         memcpy(d, held, sizeof d);
-        assert_true(memory_step_prepare(step, level, &toy.arena));
-        assert_true(memory_step_solve(step, level, none, held, 1e-9, d, force, &iterations));
-        assert_true(memory_step_end(step, level, d, 1.7, 1e-9, &end, &end_force));
-        for (int i = 0; i <= NODES; i++) {
+        assert_true(way_step_prepare(step, level, &toy.arena));
+        assert_true(way_step_solve(step, &problem, d, force, &iterations));
+        for (int i = 0; i < STEP_POINTS; i++) {
             double t = time + step_length(level) * (i < NODES ? collocation.node[i] : 1.0);
             double g = 1.0 - 0.3 * -expm1(-t / 0.2) - 0.4 * -expm1(-t / 3.0);
-            measured("force", i < NODES ? force[i] : end_force, 2.0 * pow(1.7, 1.5) * g, 1e-14);
+            measured("force", step->force[i], 2.0 * pow(1.7, 1.5) * g, 1e-14);
         }
-        memory_step_take(step,
-                         &(struct memory_taken){time, level, d, force, end, end, 0.0, end_force});
+        way_step_take(step, time, 0.0, d, force);
         time += step_length(level);
     }
     toy_free(&toy);
@@ -201,8 +202,10 @@ static void second_blows_find_a_surface_that_recovers(void **state)
                       relaxation->share[0], relaxation->time[0], wall.omega, e, exact);
         assert_int_equal(fine.tracks[0].count, cases[i].blows);
         assert_true(fine.window < wall.until);
-        for (size_t b = 0; b < fine.tracks[0].count; b++)
-            assert_true(fine.tracks[0].list[b].end > fine.tracks[0].list[b].start);
+        for (size_t b = 0; b < fine.tracks[0].count; b++) {
+            const struct sub_impact *blow = &fine.tracks[0].list[b];
+            assert_true(blow->end > blow->start);
+        }
         measured("restitution", e, exact, 0.0013);
         measured("with rough steps", rough.motion.gap_rate[0], e, 5e-5);
         measured("closure", fine.energy.closure, 0.0, 1e-12);

@@ -90,14 +90,25 @@ static inline void toy_free(struct toy *toy)
     arena_release(&toy->arena);
 }
 
-/* Runs the modal method; the outcome lives in the toy's arena. */
-static inline struct impact_outcome toy_run(struct toy *toy, double accuracy, double horizon)
+/* Runs a method; the outcome lives in the toy's arena. */
+static inline struct impact_outcome toy_solve(struct toy *toy, __typeof__(impact_modal) *method,
+                                              double accuracy, double horizon)
 {
     struct impact_outcome outcome;
     struct impact_settings settings = {.accuracy = accuracy, .horizon = horizon, .max_work = 1e12};
     assert_true(impact_create(&outcome, &toy->scene, &toy->arena));
-    assert_int_equal(impact_modal(&toy->scene, &settings, &toy->arena, &outcome), PERCUSS_OK);
+    assert_int_equal(method(&toy->scene, &settings, &toy->arena, &outcome), PERCUSS_OK);
     return outcome;
+}
+
+static inline struct impact_outcome toy_run(struct toy *toy, double accuracy, double horizon)
+{
+    return toy_solve(toy, impact_modal, accuracy, horizon);
+}
+
+static inline struct impact_outcome toy_cvode(struct toy *toy, double accuracy, double horizon)
+{
+    return toy_solve(toy, impact_cvode, accuracy, horizon);
 }
 
 #endif

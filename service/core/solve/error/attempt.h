@@ -72,7 +72,7 @@ bool attempt_is_sequence(const struct attempt *attempt);
 bool attempt_is_long(const struct attempt *attempt);
 
 /* Whether first order tells the effect of small changes: its forces were recorded, of a contact
- * that approaches, neither yields nor remembers, and does not close too often. */
+ * that approaches, neither yields nor is lossy, and does not close too often. */
 bool attempt_is_followed(const struct attempt_context *context, const struct attempt *attempt);
 
 /* For an attempt that a sequence is compared with: contacts begin and end by other means, so that
