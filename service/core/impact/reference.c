@@ -14,6 +14,7 @@
 #include "impact/flight_root.h"
 #include "impact/impact_scale.h"
 #include "impact/march.h"
+#include "impact/memory_rates.h"
 #include "impact/motion.h"
 #include "numeric/ode.h"
 
@@ -22,7 +23,8 @@
 /* A whole scene as one system of ordinary differential equations, for a general solver.
  *
  * y: [rows] gaps, [rows] gap rates, [rows] impulses, 1 damping loss, of each contact with friction
- * its normal work in compression and in release, then every group's q and v. Root functions: per
+ * its normal work in compression and in release, of a lossy law the work on the approach and its
+ * memory, then every group's q and v. Root functions: per
  * contact the local indentation, the approach rate and, where a law yields, the indentation beyond
  * the elastic limit.
  *
@@ -37,11 +39,15 @@ struct reference_system {
     struct motion motion;                                   /* a state unpacked */
     double *approach, *rate, *indentation, *force, *matrix; /* [row], local; matrix: contacts^2 */
     double *absolute;                                       /* [size] absolute tolerances */
-    double *absolute_force; /* [contact] of a collision with all the energy, N */
-    double *duration;       /* [contact] of such a collision, s */
-    double *pressed;        /* [contact] approaches less the tangents' effect */
-    struct friction *taken; /* [frictions]: histories up to the last accepted step */
-    struct friction *trial; /* [frictions]: to the state of the last evaluation */
+    double *absolute_force;        /* [contact] of a collision with all the energy, N */
+    double *duration;              /* [contact] of such a collision, s */
+    double *pressed;               /* [contact] approaches less the tangents' effect */
+    struct friction *taken;        /* [frictions]: histories up to the last accepted step */
+    struct friction *trial;        /* [frictions]: to the state of the last evaluation */
+    bool lossy;                    /* the only contact's law */
+    struct memory_rates *memory;   /* where it remembers, else NULL */
+    struct memory_instant present; /* of that, */
+    double *memory_rate;           /* and the rates of its state */
 };
 
 /* A root function must be finite; every indentation is smaller than this, m. */
@@ -58,6 +64,45 @@ static size_t oscillator_count(const struct scene *scene)
     return count;
 }
 
+/* Places in y: the damping loss, the works of friction `i`'s contact, of a lossy law, the
+ * modes. */
+static size_t damping_loss(const struct reference_system *system)
+{
+    return 3 * system->rows;
+}
+
+static size_t normal_work(const struct reference_system *system, size_t i)
+{
+    return 3 * system->rows + 1 + 2 * i;
+}
+
+/* Its memory is behind it. */
+static size_t lossy_work(const struct reference_system *system)
+{
+    return normal_work(system, system->scene->frictions);
+}
+
+static size_t first_mode(const struct reference_system *system)
+{
+    size_t memory = system->memory ? memory_rates_size(system->memory) : 0;
+    return lossy_work(system) + (system->lossy ? 1 + memory : 0);
+}
+
+/* What a lossy law adds. False: out of memory. */
+static bool lossy_create(struct reference_system *system, struct arena *arena)
+{
+    const struct contact_law *law = &system->scene->laws[0];
+    system->lossy = contact_law_is_lossy(law);
+    if (!law->operations->remembers)
+        return true;
+    system->memory = arena_take(arena, 1, sizeof *system->memory);
+    if (!system->memory)
+        return false;
+    memory_rates_create(system->memory, law, system->scene->residual[0]);
+    system->memory_rate = arena_take(arena, memory_rates_size(system->memory), sizeof(double));
+    return system->memory_rate != NULL;
+}
+
 /* False: out of memory. */
 static bool reference_system_create(struct reference_system *system, const struct scene *scene,
                                     struct arena *arena)
@@ -67,10 +112,12 @@ static bool reference_system_create(struct reference_system *system, const struc
     *system = (struct reference_system){.scene = scene, .rows = rows, .roots = 2};
     /* a third root function of laws that yield */
     for (size_t c = 0; c < n; c++)
-        if (scene->laws[c].operations->curve)
+        if (scene->laws[c].operations->curve || scene->laws[c].operations->remembers)
             system->roots = 3;
+    if (!lossy_create(system, arena))
+        return false;
     /* gaps, their rates, impulses, the loss, works and the modes */
-    system->size = 3 * rows + 1 + 2 * scene->frictions + 2 * oscillator_count(scene);
+    system->size = first_mode(system) + 2 * oscillator_count(scene);
     system->approach = arena_take(arena, rows, sizeof(double));
     system->rate = arena_take(arena, rows, sizeof(double));
     system->indentation = arena_take(arena, rows, sizeof(double));
@@ -83,22 +130,6 @@ static bool reference_system_create(struct reference_system *system, const struc
     return system->approach && system->rate && system->indentation && system->force &&
            system->absolute_force && system->duration && system->pressed && system->matrix &&
            system->absolute && motion_create(&system->motion, scene, arena);
-}
-
-/* Places in y: the damping loss, the works of friction `i`'s contact, the modes. */
-static size_t damping_loss(const struct reference_system *system)
-{
-    return 3 * system->rows;
-}
-
-static size_t normal_work(const struct reference_system *system, size_t i)
-{
-    return 3 * system->rows + 1 + 2 * i;
-}
-
-static size_t first_mode(const struct reference_system *system)
-{
-    return normal_work(system, system->scene->frictions);
 }
 
 static void reference_system_unpack(const struct reference_system *system, const double *y,
@@ -244,8 +275,38 @@ static void solve_rows(struct reference_system *system)
 
 /* ---- Right-hand side ---- */
 
+/* Newton's method for d + c F(d, rate) = approach of a law that has the approach's rate in it
+ * (way_step.h). */
+static void press_moving(struct reference_system *system)
+{
+    const struct contact_law *law = &system->scene->laws[0];
+    double c = system->scene->residual[0], *d = system->indentation;
+    double reach = fabs(*system->approach);
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        double stiffness, viscosity;
+        *system->force = law->operations->moving(law, *d, *system->rate, &stiffness, &viscosity);
+        double change = (*d + c * *system->force - *system->approach) / (1.0 + c * stiffness);
+        *d -= change;
+        if (fabs(change) <= SAME_FORCE * larger(reach, fabs(*d)))
+            return;
+    }
+}
+
+/* That of a law that remembers. */
+static void press_memory(struct reference_system *system, double t, const double *y)
+{
+    struct memory_instant *at = &system->present;
+    *at = (struct memory_instant){.time = t,
+                                  .approach = *system->approach,
+                                  .approach_rate = *system->rate,
+                                  .indentation = *system->indentation};
+    memory_rates_find(system->memory, y + lossy_work(system) + 1, at, system->memory_rate);
+    *system->indentation = at->indentation;
+    *system->force = at->force;
+}
+
 /* Finds motion, approaches, local indentations and forces of a state. */
-static void reference_system_forces(struct reference_system *system, const double *y)
+static void reference_system_forces(struct reference_system *system, double t, const double *y)
 {
     reference_system_unpack(system, y, &system->motion);
     for (size_t r = 0; r < system->rows; r++)
@@ -255,6 +316,10 @@ static void reference_system_forces(struct reference_system *system, const doubl
             system->indentation[c] = fmax(0.0, system->approach[c]);
     if (system->scene->frictions)
         solve_rows(system);
+    else if (system->memory)
+        press_memory(system, t, y);
+    else if (system->lossy)
+        press_moving(system);
     else
         contact_local_indentation(system->scene, system->approach, system->indentation,
                                   system->force, system->matrix);
@@ -263,11 +328,10 @@ static void reference_system_forces(struct reference_system *system, const doubl
 /* dy/dt and the root functions, see ode.h; `context`: the system. */
 static void reference_system_rates(double t, const double *y, double *rate, void *context)
 {
-    (void)t;
     struct reference_system *system = context;
     const struct scene *scene = system->scene;
     size_t n = system->rows;
-    reference_system_forces(system, y);
+    reference_system_forces(system, t, y);
     /* gaps g'' = a + W F, impulses J' = F */
     for (size_t i = 0; i < n; i++) {
         rate[i] = y[n + i];
@@ -282,6 +346,11 @@ static void reference_system_rates(double t, const double *y, double *rate, void
         rate[normal_work(system, i)] = larger(-power, 0.0);
         rate[normal_work(system, i) + 1] = larger(power, 0.0);
     }
+    if (system->lossy)
+        rate[lossy_work(system)] = *system->force * *system->rate;
+    if (system->memory)
+        memcpy(rate + lossy_work(system) + 1, system->memory_rate,
+               memory_rates_size(system->memory) * sizeof *rate);
     /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and the damping loss */
     double loss = 0.0;
     double *next = rate + first_mode(system);
@@ -307,14 +376,15 @@ static void reference_system_rates(double t, const double *y, double *rate, void
 
 static void reference_system_roots(double t, const double *y, double *values, void *context)
 {
-    (void)t;
     struct reference_system *system = context;
-    reference_system_forces(system, y);
+    reference_system_forces(system, t, y);
     for (size_t c = 0; c < system->scene->contacts; c++) {
         double *value = values + system->roots * c;
         value[0] = system->indentation[c];
-        value[1] = system->rate[c];
-        if (system->roots > 2)
+        value[1] = system->memory ? system->present.turning : system->rate[c];
+        if (system->memory)
+            value[2] = system->present.pressed;
+        else if (system->roots > 2)
             value[2] =
                 system->indentation[c] - fmin(contact_law_limit(&system->scene->laws[c]), ENDLESS);
     }
@@ -376,6 +446,9 @@ static void reference_system_tolerate(struct reference_system *system, const str
     }
     for (size_t i = damping_loss(system); i < first_mode(system); i++)
         system->absolute[i] = relative * energy;
+    if (system->memory)
+        memory_rates_tolerate(system->memory, relative, system->absolute[0] / relative,
+                              system->absolute + lossy_work(system) + 1);
     /* a mode with all the energy */
     double *next = system->absolute + first_mode(system);
     for (size_t g = 0; g < scene->groups; g++) {
@@ -423,9 +496,10 @@ struct reference {
     double accuracy;
     struct ode *ode; /* NULL: not begun */
     double *y;
-    double *opened; /* [row] impulse when the sub-impact began */
-    double *noted;  /* [contact] impulse of which the moment is noted */
-    double longest; /* step that misses no root, s; 0: any */
+    double *opened;   /* [row] impulse when the sub-impact began */
+    double *noted;    /* [contact] impulse of which the moment is noted */
+    double longest;   /* step that misses no root, s; 0: any */
+    double parted_at; /* of a contact that remembers, s */
 };
 
 static bool reference_create(struct reference *run, struct arena *arena)
@@ -538,6 +612,27 @@ static void yield(struct reference *run, size_t c)
         outcome->too_stiff = true;
 }
 
+/* A contact that remembers turns, parts or touches. */
+static void turn_memory(struct reference *run, const int *found)
+{
+    struct reference_system *system = &run->system;
+    bool shrinks = system->memory->memory.shrinks;
+    bool grows_again = shrinks && (found[1] > 0 || found[2] < 0);
+    struct track *track = &run->march.outcome->tracks[0];
+    if (shrinks && found[2] < 0)
+        run->parted_at = system->present.time;
+    if (found[2] > 0 && track->largest_force <= NO_FORCE * *system->absolute_force)
+        track->open.start = system->present.time;
+    if (grows_again || (!shrinks && found[1] < 0))
+        memory_rates_meet(system->memory, run->y + lossy_work(system) + 1, &system->present);
+}
+
+/* The instant at which a contact ended whose indentation is 0 at `t`. */
+static double end_of(const struct reference *run, double t)
+{
+    return run->system.memory ? run->parted_at : t;
+}
+
 /* Bookkeeping at a root: contacts open and close, indentations peak. */
 static void handle_roots(struct reference *run, double t, const int *found)
 {
@@ -551,24 +646,26 @@ static void handle_roots(struct reference *run, double t, const int *found)
         } else if (opens < 0 && march->closed[c]) {
             note_impulse(run, c);
             memcpy(march->outcome->motion.gap_rate, run->y + rows, rows * sizeof *run->y);
-            march_close(march, c, t, run->y[rows + c]);
+            march_close(march, c, end_of(run, t), run->y[rows + c]);
         }
     }
     /* indentations at their largest: a law may yield there */
-    reference_system_forces(&run->system, run->y);
+    reference_system_forces(&run->system, run->march.outcome->motion.time, run->y);
     for (size_t c = 0; c < n; c++) {
         if (!march->closed[c] || found[run->system.roots * c + 1] >= 0)
             continue;
         note_largest(run, c, t);
         yield(run, c);
     }
+    if (run->system.memory)
+        turn_memory(run, found);
 }
 
 /* CVODE does not report the rise of a root function that was exactly zero at a start: a contact
  * that touched at rest. Its force is right, only the books are opened a step late. */
 static void open_unreported(struct reference *run, double t)
 {
-    reference_system_forces(&run->system, run->y);
+    reference_system_forces(&run->system, run->march.outcome->motion.time, run->y);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (!run->march.closed[c] && run->system.force[c] > 0.0 &&
             run->system.force[c] > NO_FORCE * run->system.absolute_force[c])
@@ -630,7 +727,7 @@ static void note_moments(struct reference *run, double before, double now)
 static void take_walk(struct reference *run)
 {
     struct reference_system *system = &run->system;
-    reference_system_forces(system, run->y);
+    reference_system_forces(system, run->march.outcome->motion.time, run->y);
     for (size_t i = 0; i < system->scene->frictions; i++) {
         size_t c = system->scene->friction[i].contact;
         struct track *track = &run->march.outcome->tracks[c];
@@ -641,6 +738,29 @@ static void take_walk(struct reference *run)
         track->stuck = track->stuck || system->trial[i].stuck > 0.0;
         track->slid = track->slid || system->trial[i].stuck == 0.0;
     }
+}
+
+/* The largest force of a lossy law, at the steps. */
+static void note_force(struct reference *run)
+{
+    struct track *track = &run->march.outcome->tracks[0];
+    reference_system_forces(&run->system, run->march.outcome->motion.time, run->y);
+    if (run->march.closed[0])
+        track->largest_force = larger(track->largest_force, run->system.force[0]);
+}
+
+/* At the horizon: a contact that remembers may have parted. */
+static enum percuss_end_reason end_at_horizon(struct reference *run)
+{
+    struct march *march = &run->march;
+    bool parted = run->system.memory && !(run->system.force[0] > 0.0);
+    if (!march_in_contact(march))
+        return PERCUSS_END_HORIZON;
+    if (!parted)
+        return PERCUSS_END_IN_CONTACT;
+    note_impulse(run, 0);
+    march_close(march, 0, run->parted_at, run->y[run->system.rows]);
+    return march->scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(march);
 }
 
 static enum percuss_end_reason integrate(struct reference *run)
@@ -658,6 +778,8 @@ static enum percuss_end_reason integrate(struct reference *run)
         note_moments(run, before, *now);
         if (march->scene.frictions)
             take_walk(run);
+        if (run->system.lossy)
+            note_force(run);
         /* contacts and laws that change, from which the solver starts anew */
         if (event == ODE_ROOT) {
             handle_roots(run, *now, found);
@@ -671,7 +793,7 @@ static enum percuss_end_reason integrate(struct reference *run)
         /* the end of the window, or no touch can follow */
         bool closed = march_in_contact(march);
         if (event == ODE_REACHED)
-            return closed ? PERCUSS_END_IN_CONTACT : PERCUSS_END_HORIZON;
+            return end_at_horizon(run);
         if (!closed && is_complete(run, run->y))
             return march_parted(march);
     }
@@ -738,6 +860,18 @@ static void end_friction(struct reference *run)
     }
 }
 
+/* The work on the approach less what series compliance and law give back. */
+static void end_lossy(struct reference *run)
+{
+    const struct reference_system *system = &run->system;
+    const struct contact_law *law = &system->scene->laws[0];
+    double force = system->force[0];
+    run->march.outcome->relaxed = run->y[lossy_work(system)] -
+                                  0.5 * system->scene->residual[0] * force * force -
+                                  law->operations->stored(law, run->march.indentation[0]);
+    run->march.force = system->force;
+}
+
 static void end_march(void *state)
 {
     struct reference *run = state;
@@ -745,7 +879,7 @@ static void end_march(void *state)
     if (!run->ode)
         return;
     /* contacts under load yield up to here */
-    reference_system_forces(&run->system, run->y);
+    reference_system_forces(&run->system, run->march.outcome->motion.time, run->y);
     for (size_t c = 0; c < march->scene.contacts; c++)
         if (march->closed[c])
             yield(run, c);
@@ -760,6 +894,8 @@ static void end_march(void *state)
     }
     march->damping = run->y[damping_loss(&run->system)];
     end_friction(run);
+    if (run->system.lossy)
+        end_lossy(run);
     /* the effort */
     unsigned long evaluations;
     ode_effort(run->ode, &evaluations, &march->outcome->steps);
@@ -771,6 +907,9 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
 {
     static const struct march_method method = {
         .flies = true, .contact_phase = solve, .end = end_march};
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (contact_law_refuses(&scene->laws[c], scene->contacts, scene->frictions))
+            return PERCUSS_INTERNAL;
     struct reference run = {.march = {.stated = scene,
                                       .outcome = outcome,
                                       .horizon = settings->horizon,

@@ -209,8 +209,6 @@ static double frequency_of(const struct problem *problem, size_t c)
 /* Why a contact cannot lose what its materials do; NULL: it can. */
 static const char *why_lossless(const struct problem *problem)
 {
-    if (problem->request->options.method == PERCUSS_METHOD_CVODE)
-        return "options.method: must be modal";
     if (problem->contact_count == 1 && problem->friction_count == 0 && !states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);

@@ -3,6 +3,7 @@
 
 /* Mirrors service/core/impact/way_step.c for laws that have the rate in them (test_memory_step.c
  * has those that remember): Hunt and Crossley's law against its closed forms, and its energy. */
+#include "model/relaxation.h"
 #include "unit/impact/toy_scene.h"
 
 /* For one mass F = k d^n (1 + c v) gives v dv / (1 + c v) = -w k d^n dd: what v - log(1 + c v)/c is
@@ -46,10 +47,56 @@ static void balls_rebound_by_the_closed_form(void **state)
         }
 }
 
+/* Uniform in 0..1, always the same ones. */
+static double draw(void)
+{
+    static unsigned long long at = 12345;
+    at = at * 6364136223846793005ull + 1442695040888963407ull;
+    return (double)(at >> 11) * 0x1p-53;
+}
+
+/* Random bodies with modes, and a compliance in series of either sign, by both methods: a law with
+ * the rate in it, and one that remembers. */
+static void cvode_finds_the_same(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 6; i++) {
+        struct toy toy;
+        const struct relaxation relaxation = {
+            2, {0.2 + 0.2 * draw(), 0.1 + 0.3 * draw()}, {0.1 + draw(), 1.5 + 6.0 * draw()}};
+        double omega[3], phi[3];
+        for (size_t k = 0; k < 3; k++) {
+            omega[k] = ((double)k + 1.0) * (0.4 + draw());
+            phi[k] = 1.2 * draw() - 0.3;
+        }
+        toy_init(&toy, 1);
+        toy_add(&toy, 0, 3, omega, 0.01, phi);
+        toy.laws[0] = i % 2 ? contact_law_viscoelastic(1.0, &relaxation)
+                            : contact_law_dissipative(1.0, 1.0 + draw(), 0.1 + draw());
+        toy.residual[0] = 0.1 * draw() - 0.04;
+        toy.gap_rate[0] = -1.0;
+        struct impact_outcome modal = toy_run(&toy, 1e-9, 100.0);
+        struct impact_outcome cvode = toy_cvode(&toy, 1e-10, 100.0);
+        const struct track *a = &modal.tracks[0], *b = &cvode.tracks[0];
+        assert_int_equal(a->count, 1);
+        assert_int_equal(b->count, 1);
+        /* both have the accuracy of the modal method */
+        measured("restitution", modal.motion.gap_rate[0], cvode.motion.gap_rate[0], 7e-9);
+        measured("lost", modal.relaxed, cvode.relaxed, 7e-9);
+        measured("closure", modal.energy.closure, 0.0, 1e-10);
+        measured("closure of cvode", cvode.energy.closure, 0.0, 1e-9);
+        measured("end", a->list[0].end, b->list[0].end, 1e-5);
+        /* cvode's is the largest at its steps */
+        measured("peak", a->list[0].peak_force, b->list[0].peak_force, 1e-4);
+        toy_free(&toy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls_rebound_by_the_closed_form),
+        cmocka_unit_test(cvode_finds_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
