@@ -68,7 +68,8 @@ struct contact_law_operations {
     const char *title; /* for messages */
     bool three_halves; /* force = d^(3/2) times a function that is smooth at d = 0 */
     bool elliptic;     /* exact for elliptic contacts; else by the sphere that is as stiff */
-    bool remembers;    /* its force depends on the way, not on the indentation alone */
+    bool lossy;        /* its force depends on more than the indentation: on the way, */
+    bool remembers;    /* as memory.h has it; else on the rate: `moving` */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);
     /* The same at several indentations at once; NULL: one by one. */
@@ -120,12 +121,6 @@ PERCUSS_CONTACT_MODEL_LIST(CONTACT_LAW_DECLARATION)
 
 /* The operations of a model by its number; AUTO's for a number out of range. */
 const struct contact_law_operations *contact_law_asked(unsigned model);
-
-/* Whether its force depends on the way of the contact, or on its rate, beside the indentation. */
-static inline bool contact_law_is_lossy(const struct contact_law *law)
-{
-    return law->operations->remembers || law->operations->moving;
-}
 
 static inline double contact_law_force(const struct contact_law *law, double indentation,
                                        double *stiffness)

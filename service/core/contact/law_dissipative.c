@@ -53,6 +53,7 @@ static const struct contact_law_operations dissipative_operations = {
     .model = PERCUSS_CONTACT_AUTO,
     .effort = CONTACT_EFFORT_SHORT,
     .title = "Hunt and Crossley's law",
+    .lossy = true,
     .force = elastic_force,
     .moving = moving_force,
     .stored = elastic_energy,

@@ -51,6 +51,7 @@ const struct contact_law_operations contact_law_VISCOELASTIC = {
     .make = without_relaxation,
     .title = "viscoelastic Hertz contact",
     .elliptic = true,
+    .lossy = true,
     .remembers = true,
     .force = instantaneous_force,
     .stored = stored_at_last,

@@ -36,7 +36,7 @@ const struct contact_law_operations *contact_law_asked(unsigned model)
 
 const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t frictions)
 {
-    if (!contact_law_is_lossy(law))
+    if (!law->operations->lossy)
         return NULL;
     if (contacts > 1)
         return "contacts: must be one";

@@ -105,7 +105,7 @@ static double stored_energy(const struct scene *scene, const struct contact_law 
         const struct contact_law *law = &laws[c];
         double stiffness;
         force[c] = contact_law_force(law, last->indentation[c], &stiffness);
-        if (contact_law_is_lossy(law) && last->force)
+        if (law->operations->lossy && last->force)
             force[c] = last->force[c];
         sum += law->operations->stored(law, last->indentation[c]);
     }

@@ -99,7 +99,7 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
         limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
-    double event = contact_law_is_lossy(&scene->laws[0]) ? PARTING : limits->event;
+    double event = scene->laws[0].operations->lossy ? PARTING : limits->event;
     return (struct step_limits){
         .roughness = fmin(limits->roughest, limits->roughness * root * root),
         .event_share = fmin(limits->longest_event, event * half),
@@ -940,9 +940,6 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
                                  struct arena *arena, struct impact_outcome *outcome)
 {
     static const struct march_method method = {.contact_phase = contact_phase, .end = end_march};
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (contact_law_refuses(&scene->laws[c], scene->contacts, scene->frictions))
-            return PERCUSS_INTERNAL;
     struct modal_run run = {.march = {.stated = scene,
                                       .outcome = outcome,
                                       .horizon = settings->horizon,

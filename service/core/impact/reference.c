@@ -92,7 +92,7 @@ static size_t first_mode(const struct reference_system *system)
 static bool lossy_create(struct reference_system *system, struct arena *arena)
 {
     const struct contact_law *law = &system->scene->laws[0];
-    system->lossy = contact_law_is_lossy(law);
+    system->lossy = law->operations->lossy;
     if (!law->operations->remembers)
         return true;
     system->memory = arena_take(arena, 1, sizeof *system->memory);

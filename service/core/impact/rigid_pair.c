@@ -38,7 +38,7 @@ bool impact_is_rigid_pair(const struct scene *scene)
 {
     return scene->rows == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
-           !contact_law_is_lossy(&scene->laws[0]) && stays_elastic(scene);
+           !scene->laws[0].operations->lossy && stays_elastic(scene);
 }
 
 /* Integrals of a compression. */

@@ -205,7 +205,7 @@ void track_close(struct track *track, const struct contact_law *law, double time
     open->end = time;
     open->gap_rate_after = gap_rate;
     open->peak_force = contact_law_force(law, open->max_indentation - track->deepened, &stiffness);
-    if (contact_law_is_lossy(law))
+    if (law->operations->lossy)
         open->peak_force = track->largest_force;
     track->impulse += open->impulse;
     for (int t = 0; t < 2; t++)

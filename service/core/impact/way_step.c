@@ -18,7 +18,10 @@ bool way_step_create(struct way_step **step, const struct scene *scene, struct a
 {
     const struct contact_law *law = &scene->laws[0];
     *step = NULL;
-    if (scene->contacts != 1 || scene->frictions || !contact_law_is_lossy(law))
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->lossy && (scene->contacts > 1 || scene->frictions))
+            return false;
+    if (!law->operations->lossy)
         return true;
     struct way_step *made = *step = arena_take(arena, 1, sizeof *made);
     if (!made)

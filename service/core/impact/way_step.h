@@ -30,7 +30,8 @@ struct way_step {
     double work;                            /* of all forces on the approach, J */
 };
 
-/* NULL: the force of each contact depends on its indentation alone. False: out of memory. */
+/* NULL: the force of each contact depends on its indentation alone. False: out of memory, or one of
+ * them is refused (contact_law_refuses), which callers see to. */
 bool way_step_create(struct way_step **step, const struct scene *scene, struct arena *arena);
 
 /* Makes sure of a level. False: out of memory. */
