@@ -41,6 +41,9 @@ void describe_body(const struct body *body, percuss_v1_Body *wire,
     body->kind->describe(body, &description);
     if (body->loss_factor > 0.0)
         describe_add(&description, "loss factor %g", body->loss_factor);
+    if (body->relaxation.count > 0)
+        describe_add(&description, "modulus relaxes to %.3g of young in %zu terms",
+                     relaxation_storage(&body->relaxation, 0.0), body->relaxation.count);
     if (isinf(body->material.yield) && !body->yield_unstated)
         describe_add(&description, PLAUSIBLE_ELASTIC);
     memcpy(wire->half_extents, description.half_extents, sizeof wire->half_extents);

@@ -129,6 +129,7 @@ static void print_catalogue(const struct form *form)
 {
     print_section(form, "The whole file", &keys_top);
     print_section(form, "A material", &keys_material);
+    print_section(form, "A term of a relaxation", &keys_relaxation);
     print_section(form, "Contact", &keys_contact);
     print_section(form, "Friction between two materials", &keys_friction);
     print_section(form, "Every body", &keys_body);

@@ -205,6 +205,51 @@ static enum percuss_status refuse_field(struct reader *reader, struct entry entr
     return reader_refuse(reader, at ? at : entry.key, "%s", rest + strspn(rest, ": "));
 }
 
+static enum percuss_status read_terms(struct reader *reader, const yaml_node_t *list,
+                                      struct relaxation *relaxation)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < reader_count(list); i++) {
+        const yaml_node_t *mapping = reader_element(reader, list, i);
+        struct stated_term term;
+        char index[24];
+        snprintf(index, sizeof index, "[%zu]", i);
+        size_t mark = reader_enter(reader, index);
+        enum percuss_status status =
+            keys_read(reader, (struct entry){mapping, mapping}, &keys_relaxation, &term);
+        if (status)
+            return status;
+        sum += term.share;
+        if (!(sum < 1.0))
+            return reader_refuse(reader, mapping,
+                                 "share: %.9g: all shares up to this one must add up to less than "
+                                 "1, not %.9g",
+                                 term.share, sum);
+        relaxation_add(relaxation, term.share, term.time);
+        reader_leave(reader, mark);
+    }
+    return PERCUSS_OK;
+}
+
+/* Nothing where the key is absent. */
+static enum percuss_status read_relaxation(struct reader *reader, struct entry entry,
+                                           struct stated_material *stated)
+{
+    struct entry item = reader_find(reader, entry.value, "relaxation");
+    if (!item.value)
+        return PERCUSS_OK;
+    size_t mark = reader_enter(reader, "relaxation"), count = reader_count(item.value);
+    if (!isnan(stated->loss_factor))
+        return reader_refuse(reader, item.key, "must be absent beside loss_factor");
+    if (count < 1 || count > RELAXATION_TERMS)
+        return reader_refuse(reader, item.value, "%zu terms: must be 1 to %d", count,
+                             RELAXATION_TERMS);
+    enum percuss_status status = read_terms(reader, item.value, &stated->relaxation);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
 static enum percuss_status read_material(struct reader *reader, struct entry entry,
                                          struct stated_material *stated)
 {
@@ -214,6 +259,8 @@ static enum percuss_status read_material(struct reader *reader, struct entry ent
     memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, material->name);
     enum percuss_status status = keys_read(reader, entry, &keys_material, stated);
+    if (!status)
+        status = read_relaxation(reader, entry, stated);
     if (status)
         return status;
     struct fault fault = {0};
@@ -387,6 +434,7 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
     if (position < materials->names.count) {
         body->material = materials->list[position].material;
         body->loss_factor = materials->list[position].loss_factor;
+        body->relaxation = materials->list[position].relaxation;
         body->yield_unstated = materials->list[position].yield_unstated;
         return PERCUSS_OK;
     }
@@ -394,6 +442,25 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
     reader_enter(reader, "material");
     return reader_refuse(reader, value, "%s: unknown material; must be one of %s",
                          reader_excerpt(value).text, names_list(&materials->names).text);
+}
+
+/* Damps the modes of a body that states no damping by what its material loses. A mode of the ratio
+ * d loses 4 pi d of its energy in a cycle, the material 2 pi times its loss factor. */
+static enum percuss_status damp(struct reader *reader, struct entry entry, struct body *body)
+{
+    if (!body_can_vibrate(body) || reader_find(reader, entry.value, "damping").value)
+        return PERCUSS_OK;
+    body->damping_peak = relaxation_peak_loss(&body->relaxation, 0.0);
+    double loss_factor = body->relaxation.count > 0 ? body->damping_peak : body->loss_factor;
+    if (loss_factor > 0.0)
+        body->damping = 0.5 * loss_factor;
+    if (body->damping < limit_damping.high)
+        return PERCUSS_OK;
+    reader_enter(reader, "damping");
+    return reader_refuse(reader, entry.key,
+                         "missing: must be stated, as the loss factor of %s reaches %.3g (its "
+                         "modes are damped by half of it, which must be < 1)",
+                         body->material.name, loss_factor);
 }
 
 /* The rest of a body: the material's numbers, and its file. */
@@ -406,11 +473,7 @@ static enum percuss_status read_rest(struct reader *reader, struct entry entry,
         status = find_material(reader, entry, materials, body);
     if (!status && body->kind->own_material)
         status = mesh_entry_read(reader, entry, files, set, body);
-    /* a mode of the ratio d loses 4 pi d of its energy in a cycle, the material 2 pi loss_factor */
-    if (!status && body->loss_factor > 0.0 && body_can_vibrate(body) &&
-        !reader_find(reader, entry.value, "damping").value)
-        body->damping = 0.5 * body->loss_factor;
-    return status;
+    return status ? status : damp(reader, entry, body);
 }
 
 /* Whether its mesh is still to be reduced. */
@@ -635,6 +698,13 @@ static void hash_body(struct hash *hash, const struct body *body)
     if (!isnan(body->loss_factor)) {
         hash_text(hash, "loss_factor");
         hash_double(hash, body->loss_factor);
+    }
+    if (body->relaxation.count > 0) {
+        hash_text(hash, "relaxation");
+        hash_number(hash, body->relaxation.count);
+        hash_doubles(hash, body->relaxation.share, body->relaxation.count);
+        hash_doubles(hash, body->relaxation.time, body->relaxation.count);
+        hash_double(hash, body->damping_peak);
     }
     if (isinf(body->material.yield) && !body->yield_unstated)
         hash_text(hash, "yield: none");

@@ -371,7 +371,10 @@ const struct key_table keys_friction = {"a pair of materials", TABLE(friction_ke
 
 static const struct key material_keys[] = {
     {"young", KEY_NUMBER, &limit_young, true, KEY_OF(stated_material, material.young),
-     KEY_SAYS(NULL, "Young's modulus")},
+     KEY_SAYS(
+         NULL,
+         "Young's modulus: beside relaxation the instantaneous one, else that of the frequency "
+         "of the impact")},
     {"poisson", KEY_NUMBER, &limit_poisson, true, KEY_OF(stated_material, material.poisson),
      KEY_SAYS(NULL, "Poisson's ratio")},
     {"density", KEY_NUMBER, &limit_density, true, KEY_OF(stated_material, material.density),
@@ -388,8 +391,22 @@ static const struct key material_keys[] = {
               "energy that a cycle of strain loses over 2 pi of what it stores, tan delta: 0.02 to "
               "0.1 of hard plastics, 0.05 to 1 of rubber; 0: a soft material that is meant to lose "
               "nothing")},
+    {"relaxation", KEY_LIST, .allowed = "a list of 1 to 8 mappings of share, time",
+     KEY_SAYS(
+         "none",
+         "Prony series of a viscoelastic material, in place of a loss_factor: beside it `young` "
+         "is the instantaneous modulus, which falls to young (1 - sum share (1 - exp(-t/time))) "
+         "after a sudden strain; the shares add up to less than 1")},
 };
 const struct key_table keys_material = {"a material", TABLE(material_keys)};
+
+static const struct key relaxation_keys[] = {
+    {"share", KEY_NUMBER, &limit_share, true, KEY_OF(stated_term, share),
+     KEY_SAYS(NULL, "of the instantaneous modulus that is lost")},
+    {"time", KEY_NUMBER, &limit_time, true, KEY_OF(stated_term, time),
+     KEY_SAYS(NULL, "in which it falls to 1/e of that")},
+};
+const struct key_table keys_relaxation = {"a term of a relaxation", TABLE(relaxation_keys)};
 
 static const struct key body_keys[] = {
     {"shape", KEY_KIND, .required = true, KEY_OF(body, kind),

@@ -8,18 +8,27 @@
 #include "catalogue/reader.h"
 #include "model/key.h"
 #include "model/material.h"
+#include "model/relaxation.h"
 
 /* A material as the catalogue states it. */
 struct stated_material {
     struct material material;
-    double loss_factor;  /* as struct body's */
-    bool yield_unstated; /* the same */
+    double loss_factor;           /* as struct body's */
+    struct relaxation relaxation; /* the same */
+    bool yield_unstated;          /* the same */
+};
+
+/* A term of its relaxation. */
+struct stated_term {
+    double share, time;
 };
 
 extern const struct key_table keys_top;      /* into struct body_set */
 extern const struct key_table keys_contact;  /* into struct body_set */
 extern const struct key_table keys_friction; /* into struct friction_pair, but for its names */
-extern const struct key_table keys_material; /* into struct stated_material */
+extern const struct key_table
+    keys_material; /* into struct stated_material, but for its relaxation */
+extern const struct key_table keys_relaxation; /* into struct stated_term */
 extern const struct key_table keys_body; /* into struct body: those of every kind, shape first */
 
 extern const struct key_table keys_site; /* of a mesh, see mesh_entry.c */

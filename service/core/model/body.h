@@ -13,6 +13,7 @@
 #include "model/body_kind.h"
 #include "model/material.h"
 #include "model/mesh_body.h"
+#include "model/relaxation.h"
 #include "percuss/vocabulary.h"
 
 struct ritz_store; /* ritz_store.h */
@@ -55,8 +56,13 @@ struct body {
     double shear_number;      /* SHEAR_NUMBER: the factor */
     enum support supports[2]; /* rod, beam, block: its ends at -x, +x */
     double damping;           /* modal damping ratio, [0, 1); of several the largest */
-    double loss_factor;  /* of its material: loss of a cycle over 2 pi times its stored energy; NAN:
-                            not stated */
+    double loss_factor; /* of its material: loss of a cycle over 2 pi times its stored energy; NAN:
+                           not stated */
+    struct relaxation relaxation; /* of its material, in place of a loss factor */
+    double relaxed_from; /* the instantaneous modulus (Pa), where `young` is the storage modulus of
+                            an impact's frequency (solve/relaxed.h); 0: `young` is it */
+    double damping_peak; /* the largest loss factor of the relaxation, where modes are damped by
+                            half of theirs; 0: the damping is stated */
     bool yield_unstated; /* its material states neither a yield nor its absence: elastic by
                             assumption */
     double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */

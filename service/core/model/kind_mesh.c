@@ -47,7 +47,8 @@ static const struct key keys[] = {
                     "catalogue's folder, or "
                     "from share/percuss of the installation where it is not there")},
     {"damping", KEY_DAMPING, &limit_damping, KEY_OF(body, damping),
-     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
+     KEY_SAYS("half of its material's loss factor (of its relaxation at each mode's frequency); 0 "
+              "where that states none",
               "damping ratio of every elastic mode")},
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
      KEY_SAYS("as many as the tolerance asks for",

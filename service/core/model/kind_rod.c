@@ -25,7 +25,8 @@ static const struct key keys[] = {
     {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends),
      KEY_SAYS("free", "how its ends at -x and +x are held")},
     {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
-     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
+     KEY_SAYS("half of its material's loss factor (of its relaxation at each mode's frequency); 0 "
+              "where that states none",
               "damping ratio of every mode")},
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
      KEY_SAYS("as many as the tolerance asks for", "fixed number of modes")},

@@ -26,6 +26,9 @@ const struct limit limit_tangent = {
 const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_loss_factor = {
     0.0, 2.0, false, true, "a ratio >= 0 and < 2", QUANTITY_NUMBER};
+const struct limit limit_share = {0.0, 1.0, true, true, "a share > 0 and < 1", QUANTITY_NUMBER};
+const struct limit limit_time = {
+    1e-12, 1e12, false, false, "a finite time > 0 s (1e-12 to 1e12 s)", QUANTITY_TIME};
 const struct limit limit_shear_factor = {
     1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)", QUANTITY_NUMBER};
 const struct limit limit_scale = {1e-6,           1e6, false, false, "a number > 0 (1e-6 to 1e6)",

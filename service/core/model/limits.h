@@ -29,6 +29,8 @@ extern const struct limit limit_yield;        /* Pa */
 extern const struct limit limit_tangent;      /* Pa */
 extern const struct limit limit_damping;      /* ratio; 1 would no longer oscillate */
 extern const struct limit limit_loss_factor;  /* ratio; half of it damps a mode */
+extern const struct limit limit_share;        /* of a modulus that relaxes */
+extern const struct limit limit_time;         /* s, in which it does */
 extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
 extern const struct limit limit_scale;        /* of a mesh's size */
 extern const struct limit limit_friction;     /* Coulomb's coefficient */

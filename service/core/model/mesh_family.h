@@ -41,7 +41,8 @@ extern const struct mode_family *const mesh_family_alone[1];
     .theory = mesh_family_theory
 #define BOX_VIBRATION_KEYS                                                                         \
     {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),                                 \
-     KEY_SAYS("half of its material's loss_factor; 0 where that states none",                      \
+     KEY_SAYS("half of its material's loss factor (of its relaxation at each mode's frequency); "  \
+              "0 where that states none",                                                          \
               "damping ratio of every elastic mode")},                                             \
         {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),                                    \
          KEY_SAYS("as many as the tolerance asks for",                                             \

@@ -26,6 +26,19 @@ struct relaxation {
 double relaxation_storage(const struct relaxation *relaxation, double omega);
 double relaxation_loss_factor(const struct relaxation *relaxation, double omega);
 
+/* The largest loss factor of all frequencies from `omega` on, to 1 %; 0: of all. */
+double relaxation_peak_loss(const struct relaxation *relaxation, double omega);
+
+/* Adds a term, in order of time; one of a time that is there already is added to that. There is
+ * room for RELAXATION_MOST. */
+void relaxation_add(struct relaxation *relaxation, double share, double time);
+
+/* The terms that a motion of about this frequency tells from springs: without those that are a
+ * million times faster, which it finds relaxed, or slower, which it finds stiff. The instantaneous
+ * modulus is then *stiffness times what it was. */
+struct relaxation relaxation_near(const struct relaxation *relaxation, double omega,
+                                  double *stiffness);
+
 /* A material with this loss factor (0 < eta < 2) at `omega`, and nearly the same around it (up to
  * 0.3: to 10 % from omega/20 to 6 omega): its modulus grows there like omega^a, a = 2/pi atan eta
  * (J. D. Ferry, Viscoelastic Properties of Polymers, 1980, chapter 3: modulus, loss and spectrum of

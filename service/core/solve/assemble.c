@@ -169,7 +169,7 @@ static void add_omitted(const struct addition *add, const double *left)
     const struct body *body = add->problem->bodies[add->body];
     double omega = add->prepared->modes->omega[add->count];
     double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
-    double damping = damping_from(body, add->count);
+    double damping = damping_from(body, add->count, omega);
     for (size_t i = 0; i < problem_rows(add->problem); i++) {
         const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)

@@ -159,25 +159,21 @@ static enum percuss_status find_law(struct problem *problem,
     return PERCUSS_OK;
 }
 
-/* Hertz indentation if all the energy of the rigid approach at that speed went into the contact. */
-static double rigid_indentation(const struct problem *problem, size_t c, double speed)
-{
-    double w = problem->w[c * (problem->contact_count + 1)];
-    return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
-}
-
 /* ---- What the materials lose ---- */
 
 /* Smaller loss factors take less than steps and modes leave, and are none. */
 static const double LEAST_LOSS = 1e-9;
 
-/* A body's relaxation, and its instantaneous modulus over `young`, which a loss factor is stated
- * with: that of the contact's frequency. */
+/* A body's relaxation, and its instantaneous modulus over `young`, which is that of the contact's
+ * frequency. */
 static struct relaxation relaxation_of(const struct body *body, double omega, double *instantaneous)
 {
     struct relaxation relaxation = {0};
     *instantaneous = 1.0;
-    if (body->loss_factor > LEAST_LOSS) {
+    if (body->relaxation.count > 0) {
+        relaxation = relaxation_near(&body->relaxation, omega, instantaneous);
+        *instantaneous *= body->relaxed_from / body->material.young;
+    } else if (body->loss_factor > LEAST_LOSS) {
         relaxation = relaxation_constant(body->loss_factor, omega);
         *instantaneous = 1.0 / relaxation_storage(&relaxation, omega);
     }
@@ -190,27 +186,11 @@ static bool states_loss(const struct problem *problem, size_t c)
            problem_body(problem, c, 1)->loss_factor > LEAST_LOSS;
 }
 
-/* Of the rigid approach when it touches, m/s: a gap that is open is closed with the acceleration of
- * the gap; NAN: it does not touch. */
-static double touching_speed(const struct problem *problem, size_t c)
-{
-    const double rate = fmin(0.0, problem->gap_rate[c]);
-    const double a = problem->request->contacts[c].gap_acceleration;
-    return sqrt(rate * rate - 2.0 * a * fmax(0.0, problem->request->contacts[c].gap));
-}
-
-/* Angular frequency of an elastic contact of the rigid masses, rad/s: pi over its duration. */
-static double frequency_of(const struct problem *problem, size_t c)
-{
-    double speed = touching_speed(problem, c);
-    return M_PI * speed / (HERTZ_DURATION * rigid_indentation(problem, c, speed));
-}
-
 /* Why a contact cannot lose what its materials do; NULL: it can. */
 static const char *why_lossless(const struct problem *problem)
 {
     if (problem->contact_count == 1 && problem->friction_count == 0 && !states_loss(problem, 0))
-        return "the material of a body must state a loss_factor above 0";
+        return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
     return contact_law_refuses(&law, problem->contact_count, problem->friction_count);
 }
@@ -224,7 +204,7 @@ static enum percuss_status find_lossy(struct problem *problem, struct fault *fau
     if (why && asked)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "options.contact_model: viscoelastic: %s",
                          why);
-    double omega = why ? NAN : frequency_of(problem, 0);
+    double omega = why ? NAN : problem_frequency(problem, 0);
     if (!(omega > 0.0) || !(asked || asked_of(problem)->yields_if_needed))
         return PERCUSS_OK;
     struct contact_loss *loss = choice->loss = arena_take(problem->arena, 1, sizeof *loss);
@@ -284,7 +264,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
-        likely = likely || rigid_indentation(problem, c, fmin(0.0, problem->gap_rate[c])) >
+        likely = likely || problem_indentation(problem, c, fmin(0.0, problem->gap_rate[c])) >
                                model->choices[c].yield;
     }
     enum percuss_status status = find_lossy(problem, fault);

@@ -14,6 +14,7 @@
 #include "solve/contact_model.h"
 #include "solve/error/deviation.h"
 #include "solve/oblique.h"
+#include "solve/relaxed.h"
 #include "solve/vibration.h"
 
 /* Faster approaches are outside the range of all models. */
@@ -452,12 +453,12 @@ static enum percuss_status check_solved(const struct problem *problem,
     return status;
 }
 
-enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
-                                   struct fault *fault)
+/* All contacts on the problem's bodies, with W and the rates. */
+static enum percuss_status place_contacts(struct problem *problem, const struct body_set *catalogue,
+                                          struct fault *fault)
 {
-    if (!allocate_contacts(problem))
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = find_bodies(problem, catalogue, fault);
+    enum percuss_status status = PERCUSS_OK;
+    problem->friction_count = 0;
     for (size_t i = 0; !status && i < problem->contact_count; i++) {
         status = find_place(problem, i, fault);
         if (!status)
@@ -469,8 +470,23 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = choose_w(problem, fault);
+    return status ? status : placement_find_rates(problem, fault);
+}
+
+enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
+                                   struct fault *fault)
+{
+    if (!allocate_contacts(problem))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = find_bodies(problem, catalogue, fault);
     if (!status)
-        status = placement_find_rates(problem, fault);
+        status = place_contacts(problem, catalogue, fault);
+    /* once more, on bodies as their materials have relaxed */
+    if (!status && relaxed_any(problem)) {
+        status = relaxed_bodies(problem, fault);
+        if (!status)
+            status = place_contacts(problem, catalogue, fault);
+    }
     return status ? status : check_solved(problem, catalogue, fault);
 }
 

@@ -65,9 +65,10 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
                      const struct demand *demands, size_t count, double allowed)
 {
     double stand_in = modal_remainder_frequency(body, modes, first);
+    double damping = damping_from(body, first, modes->omega[first]);
     for (size_t i = 0; i < count; i++) {
         double inertia = demands[i].left / (stand_in * stand_in);
-        double viscosity = damping_from(body, first) * demands[i].left / modes->omega[first];
+        double viscosity = damping * demands[i].left / modes->omega[first];
         if (!((inertia + viscosity * demands[i].delay) * demands[i].weight <= allowed))
             return false;
     }
@@ -130,10 +131,10 @@ static size_t count_of_few(const struct mode_choice *choice, const struct proble
         double inertia =
             modal_beyond(body, modes, modes->count, demands[i].load, 0.0) / (end * end);
         size_t k = modes->count;
-        double damping = damping_from(body, k);
+        double damping = damping_from(body, k, end);
         for (; k > enough; k--) {
-            if (k <= body->damping_count)
-                damping = fmax(damping, damping_of(body, k - 1));
+            if (k <= body->damping_count || body->damping_peak > 0.0)
+                damping = fmax(damping, damping_of(body, k - 1, omega[k - 1]));
             double square = omega[k - 1] * omega[k - 1];
             double with = inertia + row[k - 1] * row[k - 1] / (square * square);
             double viscosity = damping * with * omega[k - 1];

@@ -214,7 +214,7 @@ static bool group_create(struct prepared_group *group, const struct body *body,
         if (modes->odd[k] != parity)
             continue;
         omega[count] = modes->omega[k];
-        damping[count] = damping_of(body, k);
+        damping[count] = damping_of(body, k, modes->omega[k]);
         group->mode[count++] = k;
     }
     if (omega && damping && group->mode)
@@ -515,7 +515,8 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
         return NULL;
     double omega = modal_remainder_frequency(body, modes->modes, first);
     made->first = first;
-    made->set = oscillators_create(1, &omega, damping_from(body, first));
+    made->set =
+        oscillators_create(1, &omega, damping_from(body, first, modes->modes->omega[first]));
     made->next = entry->remainders[family];
     if (!made->set) {
         free(made);

@@ -37,6 +37,20 @@ double problem_approach(const struct problem *problem)
     return speed;
 }
 
+double problem_indentation(const struct problem *problem, size_t c, double speed)
+{
+    double w = problem->w[c * (problem->contact_count + 1)];
+    return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
+}
+
+double problem_frequency(const struct problem *problem, size_t c)
+{
+    const struct solve_contact *contact = &problem->request->contacts[c];
+    const double rate = fmin(0.0, problem->gap_rate[c]);
+    double speed = sqrt(rate * rate - 2.0 * contact->gap_acceleration * fmax(0.0, contact->gap));
+    return M_PI * speed / (HERTZ_DURATION * problem_indentation(problem, c, speed));
+}
+
 double problem_largest_compression(const struct problem *problem)
 {
     double largest = 0.0;

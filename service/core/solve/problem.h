@@ -112,6 +112,14 @@ static inline const struct material *problem_material(const struct problem *prob
 /* Speed of the contact that closes fastest, m/s; 0: none does. */
 double problem_approach(const struct problem *problem);
 
+/* Hertz indentation (m) of a contact if all the energy of the rigid approach at that speed (m/s)
+ * went into it. */
+double problem_indentation(const struct problem *problem, size_t contact, double speed);
+
+/* Angular frequency of an elastic contact of the rigid masses, rad/s: pi over its duration. A gap
+ * that is open is closed with the acceleration of the gap. NAN: it does not touch. */
+double problem_frequency(const struct problem *problem, size_t contact);
+
 /* Of the contacts' compression impulses, N s. */
 double problem_largest_compression(const struct problem *problem);
 

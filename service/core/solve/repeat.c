@@ -9,6 +9,7 @@
 #include "solve/contact_model.h"
 #include "solve/formulation.h"
 #include "solve/radiation.h"
+#include "solve/relaxed.h"
 #include "solve/validity.h"
 
 struct repeat {
@@ -97,11 +98,12 @@ static enum percuss_status repeat_judge(struct repeat *repeat, size_t contact,
 }
 
 /* Whether another impact of the same bodies is the same problem but for its rates: they decide the
- * laws of bodies that yield, the waves of half-spaces, a sphere's matched compliance and whether a
- * block or cylinder vibrates (vibration.h). */
+ * laws of bodies that yield, the waves of half-spaces, a sphere's matched compliance, whether a
+ * block or cylinder vibrates (vibration.h) and how far materials relax. */
 static bool lasts(const struct problem *problem)
 {
-    bool lasts = !radiation_is_possible(problem) && !problem->compliance.by_speed;
+    bool lasts =
+        !radiation_is_possible(problem) && !problem->compliance.by_speed && !relaxed_any(problem);
     for (size_t b = 0; b < problem->body_count; b++)
         lasts = lasts && !(problem->bodies[b]->kind->box && body_can_vibrate(problem->bodies[b]));
     for (size_t c = 0; c < problem->contact_count; c++)

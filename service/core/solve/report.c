@@ -222,7 +222,7 @@ static void state_move_freely(const struct body *body, size_t family,
     arena->lacks = arena->lacks || !modes;
     memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
     for (size_t k = 0; modes && k < count && k < modes->count; k++)
-        state_move_one(modes->omega[k], damping_of(body, k), times, pairs + 2 * k);
+        state_move_one(modes->omega[k], damping_of(body, k, modes->omega[k]), times, pairs + 2 * k);
     modal_family_free(modes);
 }
 

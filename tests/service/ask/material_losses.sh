@@ -11,6 +11,7 @@ materials:
   nylon:  {young: 3 GPa, poisson: 0.40, density: 1140, loss_factor: 0.06}
   rubber: {young: 5 MPa, poisson: 0.49, density: 1100}
   ideal:  {young: 5 MPa, poisson: 0.49, density: 1100, loss_factor: 0}
+  pom:    {young: 4 GPa, poisson: 0.40, density: 1410, relaxation: [{share: 0.1, time: 30 us}, {share: 0.1, time: 0.3 ms}]}
 bodies:
   ball:   {shape: sphere, material: steel, radius: 15 mm}
   bead:   {shape: sphere, material: nylon, radius: 15 mm}
@@ -18,6 +19,7 @@ bodies:
   mat:    {shape: half-space, material: rubber}
   spring: {shape: half-space, material: ideal}
   bar:    {shape: rod, material: nylon, radius: 10 mm, length: 1}
+  pad:    {shape: half-space, material: pom}
   bell:   {shape: rod, material: nylon, radius: 10 mm, length: 1, damping: 0}
 YAML
 lost="of itself in the contact (loss_factor 0.06) is not in the answer: the restitution is lower by about 0.0"
@@ -33,6 +35,14 @@ say "who lists the bodies sees it"
 expect 0 percuss bodies
 grep "^bead .*loss factor 0.06" "$out" >/dev/null || fail "not listed"
 ! grep "^ball .*loss factor" "$out" >/dev/null || fail "steel's is not stated"
+
+say "a material that relaxes loses by its series, and is as stiff as at the impact's frequency"
+grep "^pad .*modulus relaxes to 0.8 of young in 2 terms" "$out" >/dev/null || fail "not listed"
+expect 0 percuss query --a ball --b pad --speed 0.3 --json
+[ "$(field contact_model)" = viscoelastic ] || fail "$(field contact_model)"
+awk -v e="$(field restitution)" 'BEGIN { exit !(e > 0.88 && e < 0.96) }' || fail "e = $(field restitution)"
+expect 0 percuss query --a ball --b pad --speed 0.3 --contact-model hertz
+says "contacts[0]: what pad loses of itself in the contact (loss_factor 0.0"
 
 say "a stated loss is in the answer, and in its error"
 expect 0 percuss query --a ball --b stop --speed 0.3 --json
@@ -115,6 +125,9 @@ say "one that no material has is refused, with what is allowed"
 sed 's/loss_factor: 0.06/loss_factor: 6/' "$work/catalogue.yaml" >"$work/wrong.yaml"
 expect 2 "$bin/percuss" query --local --catalogue "$work/wrong.yaml" --a ball --b stop --speed 0.3
 says "wrong.yaml:3: materials.nylon.loss_factor: 6: must be a ratio >= 0 and < 2"
+sed 's/time: 30 us/time: 30 um/' "$work/catalogue.yaml" >"$work/wrong.yaml"
+expect 2 "$bin/percuss" query --local --catalogue "$work/wrong.yaml" --a ball --b pad --speed 0.3
+says "wrong.yaml:6: materials.pom.relaxation[0].time: 30 um: must be a time"
 
 say "soft, lossy bodies: on beams, with surfaces that come back slowly, with a gap, with next to no loss"
 cat >"$work/soft.yaml" <<END

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "catalogue/names.h"
+#include "model/damping.h"
 #include "parse.h"
 
 #define SHIPPED PERCUSS_SOURCE_DIR "/config/catalogue.yaml"
@@ -154,6 +155,42 @@ static void losses_damp(void **state)
     body_set_free(set);
 }
 
+/* A material that relaxes damps each mode at its frequency; where that is too much it must be said.
+ */
+static void series_are_read(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        parse_good("materials:\n"
+                   "  pom: {young: 4 GPa, poisson: 0.4, density: 1410,\n"
+                   "        relaxation: [{share: 0.05, time: 2 ms}, {share: 0.1, time: 30 us}]}\n"
+                   "  gum: {young: 50 MPa, poisson: 0.49, density: 1100, relaxation: [{share: "
+                   "0.98, time: 1}]}\n"
+                   "bodies:\n"
+                   "  rod: {shape: rod, material: pom, radius: 0.01, length: 1}\n"
+                   "  bell: {shape: rod, material: pom, radius: 0.01, length: 1, damping: 0.01}\n"
+                   "  ball: {shape: sphere, material: gum, radius: 0.01}\n"
+                   "  slug: {shape: rod, material: gum, radius: 0.01, length: 1, damping: 0.5}\n");
+    const struct body *rod = get(set, "rod");
+    assert_int_equal(rod->relaxation.count, 2);
+    is_read_as(rod->relaxation.time[0], 30e-6);
+    is_read_as(rod->relaxation.share[0], 0.1);
+    is_read_as(rod->relaxation.time[1], 2e-3);
+    assert_true(isnan(rod->loss_factor));
+    is_read_as(rod->damping, 0.5 * relaxation_peak_loss(&rod->relaxation, 0.0));
+    is_read_as(damping_of(rod, 0, 1e4), 0.5 * relaxation_loss_factor(&rod->relaxation, 1e4));
+    is_read_as(damping_of(get(set, "bell"), 0, 1e4), 0.01);
+    is_read_as(get(set, "ball")->damping, 0.0);
+    is_read_as(damping_of(get(set, "slug"), 0, 1.0), 0.5);
+    body_set_free(set);
+    parse_bad(
+        "materials:\n"
+        "  gum: {young: 5e7, poisson: 0.49, density: 1100, relaxation: [{share: 0.98, time: 1}]}\n"
+        "bodies:\n"
+        "  slug: {shape: rod, material: gum, radius: 0.01, length: 1}\n",
+        4, "bodies.slug.damping: missing: must be stated, as the loss factor of gum reaches 3.");
+}
+
 /* A material that states that it has no yield is as elastic as one that states nothing, which is
  * not known of it. */
 static void yields_may_be_none(void **state)
@@ -273,6 +310,9 @@ static void changes_its_revision_with_the_content(void **state)
         "  r: {shape: rod, material: p, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: p, radius: 0.01, length: 1, damping: 0}\n",
         "  r: {shape: rod, material: q, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: s, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: t, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: s, radius: 0.01, length: 1, damping: 0}\n",
         "  r: {shape: rod, material: m, radius: 0.010000000000000002, length: 1}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 2}\n",
         "  R: {shape: rod, material: m, radius: 0.01, length: 1}\n",
@@ -300,13 +340,17 @@ static void changes_its_revision_with_the_content(void **state)
     enum { COUNT = sizeof rods / sizeof *rods };
     char revisions[COUNT][PERCUSS_ID_SIZE];
     for (size_t i = 0; i < COUNT; i++) {
-        char text[512];
+        char text[1024];
         snprintf(text, sizeof text,
                  "materials: {m: {young: 70e9, poisson: 0.3, density: 2700}, "
                  "n: {young: 70e9, poisson: 0.3, density: 2700, yield: 1e8}, "
                  "o: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0}, "
                  "p: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0.1}, "
-                 "q: {young: 70e9, poisson: 0.3, density: 2700, yield: none}}\nbodies:\n%s",
+                 "q: {young: 70e9, poisson: 0.3, density: 2700, yield: none}, "
+                 "s: {young: 70e9, poisson: 0.3, density: 2700, relaxation: [{share: 0.1, time: "
+                 "1}]}, "
+                 "t: {young: 70e9, poisson: 0.3, density: 2700, relaxation: [{share: 0.1, time: "
+                 "2}]}}\nbodies:\n%s",
                  rods[i]);
         revision_of(text, revisions[i]);
         for (size_t k = 0; k < i; k++)
@@ -565,6 +609,7 @@ int main(void)
         cmocka_unit_test(loads_the_shipped_bodies),
         cmocka_unit_test(loads_a_foreign_catalogue),
         cmocka_unit_test(losses_damp),
+        cmocka_unit_test(series_are_read),
         cmocka_unit_test(yields_may_be_none),
         cmocka_unit_test(does_not_depend_on_the_locale),
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),

@@ -242,6 +242,10 @@ static void refuses_bad_ids(void **state)
     body_set_free(set);
 }
 
+#define RELAXES "young: 1e9, poisson: 0.3, density: 1, relaxation: "
+#define THREE   "{share: 0.1, time: 1}, {share: 0.1, time: 2}, {share: 0.1, time: 3}"
+#define NINE    THREE ", " THREE ", " THREE
+
 static void refuses_bad_materials(void **state)
 {
     (void)state;
@@ -264,12 +268,33 @@ static void refuses_bad_materials(void **state)
         {"young: 1e9, poisson: 0.3, density: 1, tangent: 1e6", "must be 0 or absent without yield"},
         {"young: 1e9, poisson: 0.3, density: 1, hardness: 3",
          "materials.m: hardness: unknown key; the keys of a material are young, poisson, density, "
-         "yield, tangent, loss_factor"},
+         "yield, tangent, loss_factor, relaxation"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: -0.1",
          "materials.m.loss_factor: -0.1: must be a ratio >= 0 and < 2"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 2", "loss_factor: 2: must be a ratio"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: .nan", "loss_factor: .nan: must be"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 5 %", "loss_factor: 5 %: must be"},
+        {RELAXES "0.5", "materials.m.relaxation: 0.5: must be a list of 1 to 8 mappings of share"},
+        {RELAXES "[]", "materials.m.relaxation: 0 terms: must be 1 to 8"},
+        {RELAXES "[{share: 0, time: 1}]",
+         "materials.m.relaxation[0].share: 0: must be a share > 0 and < 1"},
+        {RELAXES "[{share: 1, time: 1}]", "relaxation[0].share: 1: must be a share > 0 and < 1"},
+        {RELAXES "[{share: 0.1, time: 0}]",
+         "relaxation[0].time: 0: must be a finite time > 0 s (1e-12 to 1e12 s)"},
+        {RELAXES "[{share: 0.1, time: -1}]", "relaxation[0].time: -1: must be a finite time"},
+        {RELAXES "[{share: 0.1, time: 1 mm}]", "relaxation[0].time: 1 mm: "},
+        {RELAXES "[{share: 0.1}]", "relaxation[0].time: missing: must be a finite time"},
+        {RELAXES "[{time: 0.1}]", "relaxation[0].share: missing: must be a share"},
+        {RELAXES "[{share: 0.1, time: 1, tau: 1}]",
+         "relaxation[0]: tau: unknown key; the keys of a term of a relaxation are share, time"},
+        {RELAXES "[{share: 0.1, time: 1}, 3]", "relaxation[1]: 3: must be a mapping"},
+        {RELAXES "[{share: 0.6, time: 1}, {share: 0.4, time: 2}]",
+         "materials.m.relaxation[1]: share: 0.4: all shares up to this one must add up to less "
+         "than 1, not 1"},
+        {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 0, relaxation: [{share: 0.1, time: "
+         "1}]",
+         "materials.m.relaxation: must be absent beside loss_factor"},
+        {RELAXES "[" NINE "]", "relaxation: 9 terms: must be 1 to 8"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char text[512];

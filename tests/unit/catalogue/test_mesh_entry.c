@@ -77,7 +77,7 @@ static void modes_have_damping_of_their_own(void **state)
     const struct body *part = body_set_find(set, "part");
     assert_true(part->damping == 0.04);
     for (size_t k = 0; k < 4; k++)
-        near_relative(damping_of(part, k), wanted[k], 2e-16); /* kept over the largest */
+        near_relative(damping_of(part, k, 1.0), wanted[k], 2e-16); /* kept over the largest */
     struct body_description description = {.text = ""};
     part->kind->describe(part, &description);
     assert_non_null(strstr(description.text,
@@ -89,7 +89,7 @@ static void modes_have_damping_of_their_own(void **state)
     assert_string_not_equal(set->revision, revision);
     body_set_free(set);
     set = good("{shape: mesh, file: rod.h5, damping: [0, 0]}");
-    assert_true(damping_of(body_set_find(set, "part"), 0) == 0.0);
+    assert_true(damping_of(body_set_find(set, "part"), 0, 1.0) == 0.0);
     body_set_free(set);
     /* what is none */
     bad("{shape: mesh, file: rod.h5, damping: []}",

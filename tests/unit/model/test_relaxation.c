@@ -92,11 +92,47 @@ static void compliances_add_in_series(void **state)
     near_relative(same.time[0], 1.0, 1e-13);
 }
 
+/* The peak of one term is in closed form; of all frequencies from one beyond it on that is the
+ * largest. */
+static void the_largest_loss_is_found(void **state)
+{
+    (void)state;
+    const struct relaxation solid = {1, {0.6}, {2.0}};
+    const double omega = sqrt(0.4) / 2.0;
+    near_relative(relaxation_peak_loss(&solid, 0.0), 0.6 / (2.0 * sqrt(0.4)), 0.01);
+    near_relative(relaxation_peak_loss(&solid, 0.1 * omega), 0.6 / (2.0 * sqrt(0.4)), 0.01);
+    near(relaxation_peak_loss(&solid, 30.0), relaxation_loss_factor(&solid, 30.0), 1e-15);
+    const struct relaxation none = {0};
+    near(relaxation_peak_loss(&none, 0.0), 0.0, 0.0);
+}
+
+/* Terms in any order, and one time twice; what is far from a frequency is a spring there. */
+static void what_is_far_away_is_a_spring(void **state)
+{
+    (void)state;
+    struct relaxation all = {0};
+    relaxation_add(&all, 0.1, 3e-3);
+    relaxation_add(&all, 0.2, 1e-12);
+    relaxation_add(&all, 0.3, 1e9);
+    relaxation_add(&all, 0.05, 3e-3);
+    assert_int_equal(all.count, 3);
+    assert_true(all.time[0] == 1e-12 && all.time[1] == 3e-3 && all.time[2] == 1e9);
+    near(all.share[1], 0.15, 1e-16);
+    double stiffness, omega = 1e3;
+    struct relaxation near_by = relaxation_near(&all, omega, &stiffness);
+    assert_int_equal(near_by.count, 1);
+    near(stiffness, 0.8, 1e-15);
+    near(stiffness * relaxation_storage(&near_by, omega), relaxation_storage(&all, omega), 1e-12);
+    near(relaxation_loss_factor(&near_by, omega), relaxation_loss_factor(&all, omega), 1e-8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_standard_solid_has_its_closed_form),
         cmocka_unit_test(a_constant_loss_factor_is_one),
+        cmocka_unit_test(the_largest_loss_is_found),
+        cmocka_unit_test(what_is_far_away_is_a_spring),
         cmocka_unit_test(compliances_add_in_series),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

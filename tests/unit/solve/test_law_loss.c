@@ -277,7 +277,7 @@ static void other_contacts_have_none(void **state)
     lab->bodies[0].loss_factor = 0.0;
     assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
     assert_string_equal(result.fault.text, "options.contact_model: viscoelastic: the material of a "
-                                           "body must state a loss_factor above 0");
+                                           "body must state a loss_factor above 0 or a relaxation");
     lab_free(lab);
 }
 
