@@ -17,7 +17,8 @@
     X(ECCENTRIC, "eccentric", "a sphere beside the axis of a rectangular bar")                     \
     X(ROLLED, "rolled", "two flexible bars, rolled about their axes")                              \
     X(CHAIN, "chain", "two to five blows by token, damped or not")                                 \
-    X(OBLIQUE, "oblique", "contacts with friction, at any angle")
+    X(OBLIQUE, "oblique", "contacts with friction, at any angle")                                  \
+    X(LOSSY, "lossy", "a sphere on a wall, a rod or a beam, of plastics and rubber")
 
 enum scene_class {
 #define X(name, word, text) CLASS_##name,
@@ -69,6 +70,7 @@ void scene_draw_chain(struct lab *lab, uint64_t *r, uint64_t number, struct scen
 void scene_draw_eccentric(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_rolled(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
+void scene_draw_lossy(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 
 /* A beam of any ends in the lab under that id; returns it. */
 const struct body *scene_beam(struct lab *lab, uint64_t *r, const char *id);
