@@ -15,6 +15,9 @@ PAIRS = [
     ("glass-ball", "steel-anvil"),
     ("glass-ball", "glass-anvil"),
     ("ball", "al-bar"),
+    ("acrylic-ball", "steel-anvil"),
+    ("rubber-ball", "steel-anvil"),
+    ("rubber-ball", "al-bar"),
 ]
 
 
