@@ -170,8 +170,9 @@ static const double NEAR_CLAMP = 0.16;
 
 /* ---- Contacts that lose what their materials do ---- */
 
-/* Of a stated loss factor, as a share: not measured, but taken as handbooks give it, with one
- * digit, for a grade and a temperature that are not stated. */
+/* Of a loss factor or a series, as a share: what measurements of one material leave of the loss
+ * modulus (26 %: J. W. Adams, C. G. Merrett, Polym. Eng. Sci. 63 (2023) 1459). Ranges of handbooks
+ * are wider by far (docs/lab/contact-models.md). */
 static const double LOSS_DEVIATION = 0.3;
 
 /* ---- Contact laws that yield: build/tests/plastic, physics/test_family ---- */
