@@ -27,8 +27,8 @@ static double compliance_at(const struct problem *problem, size_t c, double omeg
 }
 
 /* The frequency w = w_0 (E(w)/E_0)^(2/5) of a contact, from w_0 with the instantaneous moduli on; 0
- * where it does not close. E grows more slowly than w does, so that each step leaves less than 2/5
- * of the distance. */
+ * where it does not close. E grows at most like w^2, so that each step leaves at most 4/5 of the
+ * distance between their logarithms. */
 static double frequency_of(const struct problem *problem, size_t c)
 {
     static const double SAME = 1e-9;

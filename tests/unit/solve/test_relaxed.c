@@ -197,14 +197,12 @@ static void as_published_of_viscous_spheres(void **state)
     }
 }
 
-/* A body that nothing approaches has the frequency of what does; friction is placed once more on
- * what has relaxed. */
-static void in_groups_too(void **state)
+/* Friction is placed once more on what has relaxed. */
+static void with_friction(void **state)
 {
     (void)state;
-    struct body ball = relaxing(make_sphere(ACRYLIC, RADIUS), frequency(ACRYLIC));
     struct lab *lab = lab_create();
-    lab_add(lab, "ball", ball);
+    lab_add(lab, "ball", relaxing(make_sphere(ACRYLIC, RADIUS), frequency(ACRYLIC)));
     lab_add(lab, "wall", rigid_wall());
     struct solve_request request = strike(sphere_spot("ball", RADIUS), wall_spot("wall"), SPEED);
     request.contacts[0].friction = 0.2;
@@ -213,6 +211,44 @@ static void in_groups_too(void **state)
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_HERTZ);
     near_relative(result.contacts[0].sub_impacts[0].end, M_PI / frequency(ACRYLIC), 0.002);
     lab_free(lab);
+}
+
+/* Three balls in a row, of which the first one strikes. Two of them are as one of half the mass,
+ * modulus and radius. */
+static void hit_row(struct body ball)
+{
+    static const char *const ids[] = {"a", "b", "c"};
+    struct lab *lab = lab_create();
+    struct solve_request request = {.body_count = 3, .contact_count = 2};
+    for (int i = 0; i < 3; i++) {
+        lab_add(lab, ids[i], ball);
+        strcpy(request.bodies[i].id, ids[i]);
+        request.bodies[i].position[0] = 2.0 * RADIUS * i;
+        request.bodies[i].orientation[0] = 1.0;
+    }
+    request.bodies[0].velocity[0] = SPEED;
+    for (unsigned c = 0; c < 2; c++) {
+        request.contacts[c].a = c;
+        request.contacts[c].b = c + 1;
+        request.contacts[c].point[0] = RADIUS * (2.0 * c + 1.0);
+        request.contacts[c].normal[0] = -1.0;
+    }
+    lab_solve(lab, &request, &result);
+    lab_free(lab);
+}
+
+/* A ball that nothing approaches yet is as stiff as at the frequency of the blow. */
+static void in_groups_too(void **state)
+{
+    (void)state;
+    const double pair = frequency(ACRYLIC) * pow(0.5, 0.2);
+    hit_row(lossy(make_sphere(ACRYLIC, RADIUS)));
+    const struct solve_result stated = result;
+    hit_row(relaxing(make_sphere(ACRYLIC, RADIUS), pair));
+    for (int c = 0; c < 2; c++) {
+        near_relative(result.contacts[c].impulse, stated.contacts[c].impulse, 1e-7);
+        near_relative(result.contacts[c].end_time, stated.contacts[c].end_time, 1e-7);
+    }
 }
 
 /* One that has relaxed below what a body may have is refused. */
@@ -241,6 +277,7 @@ int main(void)
         cmocka_unit_test(modes_are_those_of_the_impact_s_frequency),
         cmocka_unit_test(a_sample_has_its_own_modulus),
         cmocka_unit_test(as_published_of_viscous_spheres),
+        cmocka_unit_test(with_friction),
         cmocka_unit_test(in_groups_too),
         cmocka_unit_test(too_soft_is_refused),
     };
