@@ -60,7 +60,7 @@ static const struct argp_option scene_options[] = {
     {"horizon", KEY_HORIZON, "T", 0,
      "s, or with a unit: give up watching the bodies after this time", 20},
     {"contact-model", KEY_CONTACT_MODEL, "M", 0,
-     "auto, hertz, closed-form, table, concurrent-fe, complete-fe or viscoelastic", 20},
+     "auto, hertz, closed-form, table, concurrent-fe, complete-fe, viscoelastic or law", 20},
     {"method", KEY_METHOD, "M", 0, "modal or cvode", 20},
     {"compliance", KEY_COMPLIANCE, "C", 0, "default, half-space or matched", 20},
     {0},

@@ -33,7 +33,8 @@
     X(TABLE, "table")                                                                              \
     X(CONCURRENT_FE, "concurrent-fe")                                                              \
     X(COMPLETE_FE, "complete-fe")                                                                  \
-    X(VISCOELASTIC, "viscoelastic")
+    X(VISCOELASTIC, "viscoelastic")                                                                \
+    X(LAW, "law")
 
 #define PERCUSS_METHOD_LIST(X)                                                                     \
     X(MODAL, "modal")                                                                              \

@@ -218,7 +218,7 @@ static bool build(struct fixed_scene *fixed, bool residual)
         fprintf(stderr, "bench: %s\n", fault.text);
         return false;
     }
-    if (contact_model_choose(problem, NULL, &fault) ||
+    if (contact_model_choose(problem, &fixed->catalogue.set, NULL, &fault) ||
         !assemble(&fixed->assembly, problem, &choice))
         return false;
     fixed->scene = &fixed->assembly.scene;

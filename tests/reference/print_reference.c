@@ -132,6 +132,7 @@ static void print_catalogue(const struct form *form)
     print_section(form, "A term of a relaxation", &keys_relaxation);
     print_section(form, "Contact", &keys_contact);
     print_section(form, "Friction between two materials", &keys_friction);
+    print_section(form, "A law of contacts", &keys_law);
     print_section(form, "Every body", &keys_body);
     const struct body_kind *kind;
     for (size_t i = 0; (kind = body_kind_at(i)); i++)

@@ -203,6 +203,8 @@ static json_t *by_caller(const struct key *key)
         return list_of(mapping(&keys_friction), 0, 0);
     if (!strcmp(key->name, "relaxation"))
         return list_of(mapping(&keys_relaxation), 1, RELAXATION_TERMS);
+    if (!strcmp(key->name, "laws"))
+        return named(mapping(&keys_law));
     if (!strcmp(key->name, "between"))
         return list_of(name(), 2, 2);
     if (!strcmp(key->name, "fixed"))

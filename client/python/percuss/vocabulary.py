@@ -119,6 +119,7 @@ class ContactModel(Choice):
     CONCURRENT_FE = 4
     COMPLETE_FE = 5
     VISCOELASTIC = 6
+    LAW = 7
 
 
 class Method(Choice):

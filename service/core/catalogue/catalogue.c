@@ -16,6 +16,7 @@
 #include <yaml.h>
 
 #include "catalogue/keys.h"
+#include "catalogue/law_entry.h"
 #include "catalogue/mesh_entry.h"
 #include "catalogue/names.h"
 #include "catalogue/reader.h"
@@ -301,13 +302,14 @@ struct stated_pair {
     size_t line;
 };
 
+/* Two names of materials, in order. */
 static enum percuss_status read_between(struct reader *reader, const yaml_node_t *list,
-                                        const struct materials *materials,
-                                        struct friction_pair *pair)
+                                        const struct materials *materials, const char *allowed,
+                                        char between[2][PERCUSS_ID_SIZE])
 {
     size_t mark = reader_enter(reader, "between");
     if (reader_count(list) != 2)
-        return reader_refuse_value(reader, list, key_allowed(&keys_friction.keys[0]).text);
+        return reader_refuse_value(reader, list, allowed);
     for (size_t i = 0; i < 2; i++) {
         const yaml_node_t *name = reader_element(reader, list, i);
         size_t position = name->type == YAML_SCALAR_NODE
@@ -316,14 +318,13 @@ static enum percuss_status read_between(struct reader *reader, const yaml_node_t
         if (position == materials->names.count)
             return reader_refuse(reader, name, "%s: unknown material; must be one of %s",
                                  reader_excerpt(name).text, names_list(&materials->names).text);
-        memcpy(pair->between[i], materials->list[position].material.name, PERCUSS_ID_SIZE);
+        memcpy(between[i], materials->list[position].material.name, PERCUSS_ID_SIZE);
     }
-    /* in order */
-    if (strcmp(pair->between[0], pair->between[1]) > 0) {
+    if (strcmp(between[0], between[1]) > 0) {
         char first[PERCUSS_ID_SIZE];
-        memcpy(first, pair->between[0], PERCUSS_ID_SIZE);
-        memcpy(pair->between[0], pair->between[1], PERCUSS_ID_SIZE);
-        memcpy(pair->between[1], first, PERCUSS_ID_SIZE);
+        memcpy(first, between[0], PERCUSS_ID_SIZE);
+        memcpy(between[0], between[1], PERCUSS_ID_SIZE);
+        memcpy(between[1], first, PERCUSS_ID_SIZE);
     }
     reader_leave(reader, mark);
     return PERCUSS_OK;
@@ -336,8 +337,8 @@ static enum percuss_status read_pair(struct reader *reader, const yaml_node_t *m
     enum percuss_status status =
         keys_read(reader, (struct entry){mapping, mapping}, &keys_friction, pair);
     if (!status)
-        status =
-            read_between(reader, reader_find(reader, mapping, "between").value, materials, pair);
+        status = read_between(reader, reader_find(reader, mapping, "between").value, materials,
+                              key_allowed(&keys_friction.keys[0]).text, pair->between);
     if (isnan(pair->deviation))
         pair->deviation = FRICTION_USUAL_DEVIATION * pair->coefficient;
     return status;
@@ -408,6 +409,64 @@ static enum percuss_status read_friction(struct reader *reader, const yaml_node_
         reader_leave(reader, mark);
     }
     free(pairs);
+    return status;
+}
+
+/* Laws of contacts. */
+
+/* Refuses a law for materials that another one is for. */
+static enum percuss_status check_other_laws(struct reader *reader, struct entry entry,
+                                            const struct own_law *law, const struct body_set *set)
+{
+    for (size_t i = 0; i < set->law_count; i++)
+        if (memcmp(set->laws[i].between, law->between, sizeof law->between) == 0)
+            return reader_refuse(reader, entry.key,
+                                 "between %s and %s: must have one law, and has that of %s",
+                                 law->between[0], law->between[1], set->laws[i].name);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_law(struct reader *reader, struct entry entry,
+                                    const struct materials *materials, struct body_set *set)
+{
+    struct own_law law = {.exponent = 1.5, .deviation = OWN_LAW_USUAL_DEVIATION};
+    memcpy(law.name, entry.key->data.scalar.value, entry.key->data.scalar.length);
+    size_t mark = reader_enter(reader, law.name);
+    enum percuss_status status = keys_read(reader, entry, &keys_law, &law);
+    if (!status)
+        status = read_between(reader, reader_find(reader, entry.value, "between").value, materials,
+                              key_allowed(&keys_law.keys[0]).text, law.between);
+    if (!status)
+        status = check_other_laws(reader, entry, &law, set);
+    if (!status)
+        status = law_entry_read(reader, entry, &law);
+    if (status) {
+        own_law_clear(&law);
+        return status;
+    }
+    set->laws[set->law_count++] = law;
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_laws(struct reader *reader, const yaml_node_t *mapping,
+                                     const struct materials *materials, struct body_set *set)
+{
+    struct names names;
+    if (!mapping)
+        return PERCUSS_OK;
+    size_t mark = reader_enter(reader, "laws");
+    enum percuss_status status = names_read(reader, mapping, &names);
+    if (status)
+        return status;
+    set->laws = malloc((names.count + 1) * sizeof *set->laws);
+    if (!set->laws)
+        status = out_of_memory(reader->name, reader->fault);
+    for (size_t i = 0; !status && i < names.count; i++)
+        status = read_law(reader, reader_entry(reader, mapping, i), materials, set);
+    names_free(&names);
+    if (!status)
+        reader_leave(reader, mark);
     return status;
 }
 
@@ -558,8 +617,8 @@ static enum percuss_status check_marks(struct reader *reader, const yaml_node_t 
                                       "true`: the file may be cut off");
 }
 
-/* Reads a whole document into an empty set: materials, friction, bodies (completed), contact; the
- * revision is left to the caller. After a failure the set holds nothing. */
+/* Reads a whole document into an empty set: materials, friction, laws, bodies (completed), contact;
+ * the revision is left to the caller. After a failure the set holds nothing. */
 static enum percuss_status content_read(struct reader *reader, struct body_set *set)
 {
     struct materials materials = {0};
@@ -573,6 +632,8 @@ static enum percuss_status content_read(struct reader *reader, struct body_set *
     if (!status)
         status =
             read_friction(reader, reader_find(reader, root, "friction").value, &materials, set);
+    if (!status)
+        status = read_laws(reader, reader_find(reader, root, "laws").value, &materials, set);
     if (!status)
         status = read_bodies(reader, reader_find(reader, root, "bodies").value, &materials, set);
     materials_free(&materials);
@@ -714,6 +775,29 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_text(hash, "rigid");
 }
 
+static void hash_laws(struct hash *hash, const struct body_set *set)
+{
+    if (set->law_count == 0)
+        return;
+    hash_text(hash, "laws");
+    hash_number(hash, set->law_count);
+    for (size_t i = 0; i < set->law_count; i++) {
+        const struct own_law *law = &set->laws[i];
+        const double numbers[] = {law->stiffness, law->exponent, law->hysteresis, law->dissipation,
+                                  law->deviation};
+        const struct own_curve *const curves[] = {&law->points, &law->unloading};
+        hash_text(hash, law->name);
+        hash_text(hash, law->between[0]);
+        hash_text(hash, law->between[1]);
+        hash_doubles(hash, numbers, sizeof numbers / sizeof *numbers);
+        for (int k = 0; k < 2; k++) {
+            hash_number(hash, curves[k]->count);
+            hash_doubles(hash, curves[k]->indentation, curves[k]->count);
+            hash_doubles(hash, curves[k]->force, curves[k]->count);
+        }
+    }
+}
+
 static void hash_friction(struct hash *hash, const struct body_set *set)
 {
     if (set->friction_count == 0)
@@ -756,6 +840,7 @@ static enum percuss_status revision_write(struct body_set *set, struct fault *fa
     for (size_t i = 0; i < set->count; i++)
         hash_body(&hash, order[i]);
     hash_friction(&hash, set);
+    hash_laws(&hash, set);
     free(order);
     snprintf(set->revision, sizeof set->revision, "%016" PRIx64 "%016" PRIx64,
              (uint64_t)(hash.state >> 64), (uint64_t)hash.state);

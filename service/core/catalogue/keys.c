@@ -342,6 +342,9 @@ static const struct key top_keys[] = {
     {"friction", KEY_LIST, .required = false,
      .allowed = "a list of mappings of between, coefficient, deviation",
      KEY_SAYS("none", "friction between materials, of which each pair stands once")},
+    {"laws", KEY_CALLER, .required = false,
+     KEY_SAYS("none", "force laws by their names, each of the contacts of two materials, in place "
+                      "of that of contact_model auto")},
     {"begin", KEY_FLAG, KEY_OF(body_set, begin),
      KEY_SAYS("false",
               "the first line of a file that must end with `end: true`: one that is cut off, or "
@@ -368,6 +371,35 @@ static const struct key friction_keys[] = {
      KEY_SAYS("a fifth of the coefficient", "standard deviation of the coefficient")},
 };
 const struct key_table keys_friction = {"a pair of materials", TABLE(friction_keys)};
+
+static const struct key law_keys[] = {
+    {"between", KEY_LIST, .required = true,
+     .allowed = "a list of two names of materials, which may be the same",
+     KEY_SAYS(NULL, "the materials of the two surfaces that touch, in either order; their shapes "
+                    "and sizes do not change the law")},
+    {"stiffness", KEY_NUMBER, &limit_law_stiffness, false, KEY_OF(own_law, stiffness),
+     .instead = {"points"},
+     KEY_SAYS("points are stated", "force at an indentation of 1 m, F = stiffness d^exponent")},
+    {"exponent", KEY_NUMBER, &limit_law_exponent, false, KEY_OF(own_law, exponent),
+     KEY_SAYS("1.5, Hertz's", "exponent of the indentation in that force")},
+    {"hysteresis", KEY_NUMBER, &limit_hysteresis, false, KEY_OF(own_law, hysteresis),
+     KEY_SAYS("0", "share of the work of loading that unloading does not give back, at any speed: "
+                   "1 - e^2 of two rigid bodies")},
+    {"dissipation", KEY_NUMBER, &limit_dissipation, false, KEY_OF(own_law, dissipation),
+     KEY_SAYS("0", "Hunt and Crossley's: the force is 1 + dissipation times the rate of the "
+                   "indentation as large, and never pulls; of single contacts without friction")},
+    {"points", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
+     KEY_SAYS("stiffness is stated",
+              "file of two columns, indentation in m and force in N, from 0 to the largest; an "
+              "indentation beyond it is answered with a warning")},
+    {"unloading", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
+     KEY_SAYS("the way of loading",
+              "file like that of the way back, from the same largest indentation to force 0; from "
+              "other ones it is in proportion")},
+    {"deviation", KEY_NUMBER, &limit_law_deviation, false, KEY_OF(own_law, deviation),
+     KEY_SAYS("0.05", "standard deviation of the force, over the force")},
+};
+const struct key_table keys_law = {"law", TABLE(law_keys)};
 
 static const struct key material_keys[] = {
     {"young", KEY_NUMBER, &limit_young, true, KEY_OF(stated_material, material.young),

@@ -26,6 +26,7 @@ struct stated_term {
 extern const struct key_table keys_top;      /* into struct body_set */
 extern const struct key_table keys_contact;  /* into struct body_set */
 extern const struct key_table keys_friction; /* into struct friction_pair, but for its names */
+extern const struct key_table keys_law;      /* into struct own_law, but for names and files */
 extern const struct key_table
     keys_material; /* into struct stated_material, but for its relaxation */
 extern const struct key_table keys_relaxation; /* into struct stated_term */

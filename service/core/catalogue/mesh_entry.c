@@ -343,25 +343,6 @@ void mesh_files_free(struct mesh_files *files, const struct body_set *set)
     files->paths = NULL;
 }
 
-/* From the folder of the catalogue's file, else from the shipped files: catalogues are copied
- * without their files. For free(); NULL: out of memory. */
-static char *resolve(const struct reader *reader, const char *file)
-{
-    const char *slash = strrchr(reader->name, '/');
-    size_t folder = file[0] == '/' || !slash ? 0 : (size_t)(slash - reader->name) + 1;
-    char *path = malloc(folder + strlen(file) + 1);
-    if (!path)
-        return NULL;
-    sprintf(path, "%.*s%s", (int)folder, reader->name, file);
-    if (file[0] == '/' || access(path, F_OK) == 0)
-        return path;
-    char *shipped = shipped_find(file);
-    if (!shipped)
-        return path;
-    free(path);
-    return shipped;
-}
-
 /* Adds a file's body to the set. */
 static bool keep_file(struct mesh_files *files, struct body_set *set, struct mesh_body *mesh,
                       char *path)
@@ -550,7 +531,7 @@ enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
     const yaml_node_t *material = reader_find(reader, entry.value, "material").value;
     const yaml_node_t *sites = reader_find(reader, entry.value, "sites").value;
     /* the body's own file, or the one that its mesh was reduced to or will be */
-    char *path = resolve(reader, (const char *)file->data.scalar.value);
+    char *path = shipped_resolve(reader->name, (const char *)file->data.scalar.value);
     if (!path)
         return out_of_memory(reader);
     bool is_mesh = mesh_order_is_mesh(path);

@@ -55,6 +55,22 @@ char *shipped_find(const char *name)
     return find(PLACES, sizeof PLACES / sizeof *PLACES, name);
 }
 
+char *shipped_resolve(const char *catalogue, const char *file)
+{
+    const char *slash = strrchr(catalogue, '/');
+    int folder = file[0] == '/' || !slash ? 0 : (int)(slash - catalogue) + 1;
+    char *path;
+    if (asprintf(&path, "%.*s%s", folder, catalogue, file) < 0)
+        return NULL;
+    if (file[0] == '/' || access(path, F_OK) == 0)
+        return path;
+    char *shipped = shipped_find(file);
+    if (!shipped)
+        return path;
+    free(path);
+    return shipped;
+}
+
 /* The real path, for messages; NULL stays NULL. */
 static char *as_whole(char *found)
 {

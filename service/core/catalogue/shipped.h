@@ -10,6 +10,11 @@
  * no memory. */
 char *shipped_find(const char *name);
 
+/* The path of a file that a catalogue names: from the folder of the catalogue's own, else as
+ * shipped_find, since catalogues are copied without their files; where neither is there the first.
+ * For free(); NULL: out of memory. */
+char *shipped_resolve(const char *catalogue, const char *file);
+
 /* The path of the default settings of a program, for free(): those in the folder for configuration
  * that belongs to its own, or else those in share/percuss. NULL as above. */
 char *shipped_settings(void);

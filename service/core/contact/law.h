@@ -110,6 +110,10 @@ struct contact_law contact_law_viscoelastic(double stiffness, const struct relax
  * >= 0 in s/m. */
 struct contact_law contact_law_dissipative(double stiffness, double exponent, double dissipation);
 
+/* F = stiffness d^exponent while it grows, N/m^exponent, exponent >= 1; of its work unloading gives
+ * back 1 - hysteresis (0 <= hysteresis < 1), see law_power.c. */
+struct contact_law contact_law_power(double stiffness, double exponent, double hysteresis);
+
 /* Why a law is not followed in a scene of so many contacts, so many of them with friction, as the
  * end of a message: "the member: what it must be". NULL: it is. */
 const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t frictions);

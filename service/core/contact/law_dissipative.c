@@ -50,7 +50,7 @@ static void rescale(struct contact_law *law, double force, double yield)
 }
 
 static const struct contact_law_operations dissipative_operations = {
-    .model = PERCUSS_CONTACT_AUTO,
+    .model = PERCUSS_CONTACT_LAW,
     .effort = CONTACT_EFFORT_SHORT,
     .title = "Hunt and Crossley's law",
     .lossy = true,

@@ -544,6 +544,29 @@ struct contact_law contact_law_table(const struct contact_curves *curves)
     return contact_law_table_in(curves, 1.0, 1.0, 1.0);
 }
 
+/* As contact_law_TABLE: its points may lie on any curve, which begins like d^(3/2) by the
+ * interpolation. */
+static const struct contact_law_operations points_operations = {
+    .model = PERCUSS_CONTACT_LAW,
+    .tables = CONTACT_TABLES_ONLY,
+    .title = "points of the catalogue",
+    .three_halves = true,
+    .elliptic = true,
+    .force = plastic_force,
+    .forces = table_forces,
+    .stored = plastic_stored,
+    .indentation = plastic_indentation,
+    .curve = &table_curve,
+    .rescale = table_rescale,
+};
+
+struct contact_law contact_law_points(const struct contact_curves *curves)
+{
+    struct contact_law law = contact_law_table(curves);
+    law.operations = &points_operations;
+    return law;
+}
+
 struct contact_law contact_law_table_at(const struct contact_curves *curves, double radius)
 {
     double scale = curves->surface_radius > 0.0 ? radius / curves->surface_radius : 1.0;

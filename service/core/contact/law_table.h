@@ -70,6 +70,8 @@ double contact_curves_error(const struct contact_curves *curves);
 
 /* The law of a table, which must outlive it. */
 struct contact_law contact_law_table(const struct contact_curves *curves);
+/* The same, reported as a law of the catalogue (contact/law_own.h). */
+struct contact_law contact_law_points(const struct contact_curves *curves);
 /* The same for surfaces of another radius (m, 1 / (1/R_a + 1/R_b)), exact by dimensions: a static
  * contact region of given materials has no length of its own. */
 struct contact_law contact_law_table_at(const struct contact_curves *curves, double radius);

@@ -26,6 +26,13 @@ const struct contact_law_operations contact_law_COMPLETE_FE = {
     .make = contact_law_closed_form,
 };
 
+/* The catalogue's law of the two materials is in its place. */
+const struct contact_law_operations contact_law_LAW = {
+    .model = PERCUSS_CONTACT_LAW,
+    .effort = CONTACT_EFFORT_SHORT,
+    .make = contact_law_closed_form,
+};
+
 #define ENTRY(name, text) &contact_law_##name,
 
 const struct contact_law_operations *contact_law_asked(unsigned model)

@@ -181,6 +181,17 @@ const struct friction_pair *body_set_friction(const struct body_set *set, const 
     return bsearch(&wanted, set->friction, set->friction_count, sizeof wanted, friction_pair_order);
 }
 
+const struct own_law *body_set_law(const struct body_set *set, const struct material *a,
+                                   const struct material *b)
+{
+    for (size_t i = 0; i < set->law_count; i++)
+        for (int swapped = 0; swapped < 2; swapped++)
+            if (strcmp(set->laws[i].between[swapped], a->name) == 0 &&
+                strcmp(set->laws[i].between[!swapped], b->name) == 0)
+                return &set->laws[i];
+    return NULL;
+}
+
 struct material body_material_at(const struct body *body, const struct site *site)
 {
     return body->kind->material_at ? body->kind->material_at(body, site) : body->material;
@@ -210,7 +221,10 @@ void body_set_clear(struct body_set *set)
         mesh_body_free(set->meshes[i]);
     for (size_t i = 0; i < set->order_count; i++)
         body_order_clear(&set->orders[i]);
+    for (size_t i = 0; i < set->law_count; i++)
+        own_law_clear(&set->laws[i]);
     ritz_store_free(set->boxes);
+    free(set->laws);
     free(set->friction);
     free(set->orders);
     free(set->meshes);

@@ -13,6 +13,7 @@
 #include "model/body_kind.h"
 #include "model/material.h"
 #include "model/mesh_body.h"
+#include "model/own_law.h"
 #include "model/relaxation.h"
 #include "percuss/vocabulary.h"
 
@@ -204,6 +205,8 @@ struct body_set {
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     struct friction_pair *friction;     /* [friction_count], by the order of their names */
     size_t friction_count;
+    struct own_law *laws; /* [law_count] */
+    size_t law_count;
     bool begin, end; /* marks of the text it came from: one without the other was cut off */
     char revision[PERCUSS_ID_SIZE]; /* hash of everything that can change an answer */
 };
@@ -216,6 +219,10 @@ const struct body_order *body_set_order(const struct body_set *set, const char *
  * order; NULL: none. */
 const struct friction_pair *body_set_friction(const struct body_set *set, const struct material *a,
                                               const struct material *b);
+
+/* The law that it states for them; NULL: none. */
+const struct own_law *body_set_law(const struct body_set *set, const struct material *a,
+                                   const struct material *b);
 
 /* The order of pairs, for qsort and bsearch. */
 int friction_pair_order(const void *a, const void *b);

@@ -37,6 +37,16 @@ const struct limit limit_friction = {
     0.0, 10.0, false, false, "a coefficient >= 0 and <= 10", QUANTITY_NUMBER};
 const struct limit limit_deviation = {
     0.0, 10.0, false, false, "a standard deviation >= 0 and <= 10", QUANTITY_NUMBER};
+const struct limit limit_law_stiffness = {
+    0.0, 1e30, true, false, "a number > 0 (N/m^exponent)", QUANTITY_NUMBER};
+const struct limit limit_law_exponent = {
+    1.0, 4.0, false, false, "a number >= 1 and <= 4", QUANTITY_NUMBER};
+const struct limit limit_hysteresis = {
+    0.0, 1.0, false, true, "a share >= 0 and < 1", QUANTITY_NUMBER};
+const struct limit limit_dissipation = {
+    0.0, 1e6, false, false, "a number >= 0 (s/m)", QUANTITY_NUMBER};
+const struct limit limit_law_deviation = {
+    0.0, 1.0, false, false, "a share >= 0 and <= 1", QUANTITY_NUMBER};
 const struct limit limit_modes = {1.0,
                                   LIMIT_MODES,
                                   false,

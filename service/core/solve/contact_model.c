@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "contact/law_closed_form.h"
+#include "contact/law_own.h"
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "model/vector.h"
@@ -130,11 +131,58 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
     return true;
 }
 
-static enum percuss_status find_law(struct problem *problem,
+/* The catalogue's law of the two materials, for auto and where it is asked for. */
+static enum percuss_status find_own(struct problem *problem, const struct body_set *catalogue,
+                                    size_t c, struct fault *fault)
+{
+    struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct material *a = problem_material(problem, c, 0);
+    const struct material *b = problem_material(problem, c, 1);
+    bool asked = asked_of(problem)->model == PERCUSS_CONTACT_LAW;
+    if (!asked && asked_of(problem)->model != PERCUSS_CONTACT_AUTO)
+        return PERCUSS_OK;
+    const struct own_law *own = body_set_law(catalogue, a, b);
+    if (!own && asked)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: law: the catalogue has no law between %s and %s "
+                         "(contacts[%zu]); auto does without",
+                         a->name, b->name, c);
+    if (!own)
+        return PERCUSS_OK;
+    const struct contact_curves *curves;
+    enum percuss_status status = prepared_curves_get(problem->cache, own, &curves, fault);
+    if (status)
+        return status;
+    struct contact_law law = contact_law_own(own, curves);
+    const char *why = contact_law_refuses(&law, problem->contact_count, problem->friction_count);
+    if (why)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "contacts[%zu]: the law %s has a dissipation: %s (another "
+                         "options.contact_model leaves the law out)",
+                         c, own->name, why);
+    /* friction's cells are the growth of a contact from a point on */
+    if (problem->friction_count > 0 && !curves && own->exponent == 1.0)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "contacts[%zu]: the law %s has exponent 1: with friction it must be above "
+                         "1 (options.friction none leaves friction out)",
+                         c, own->name);
+    choice->own = own;
+    choice->plastic = law;
+    choice->side = -1;
+    choice->yield = INFINITY;
+    return PERCUSS_OK;
+}
+
+static enum percuss_status find_law(struct problem *problem, const struct body_set *catalogue,
                                     const struct contact_table_source *tables, size_t c,
                                     struct fault *fault)
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
+    enum percuss_status found = find_own(problem, catalogue, c, fault);
+    if (found || choice->own) {
+        find_dents(problem, c);
+        return found;
+    }
     const struct hertz_contact *hertz = &problem->hertz[c];
     const struct material *a = problem_material(problem, c, 0);
     const struct material *b = problem_material(problem, c, 1);
@@ -236,7 +284,9 @@ static void use_laws(struct problem *problem, bool yielding)
     bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
     for (size_t c = 0; c < problem->contact_count; c++) {
         const struct contact_choice *choice = &model->choices[c];
-        if (choice->loss && (asked || !yielding))
+        if (choice->own)
+            model->laws[c] = choice->plastic;
+        else if (choice->loss && (asked || !yielding))
             model->laws[c] = choice->loss->law;
         else
             model->laws[c] =
@@ -244,7 +294,7 @@ static void use_laws(struct problem *problem, bool yielding)
     }
 }
 
-enum percuss_status contact_model_choose(struct problem *problem,
+enum percuss_status contact_model_choose(struct problem *problem, const struct body_set *catalogue,
                                          const struct contact_table_source *tables,
                                          struct fault *fault)
 {
@@ -260,7 +310,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
     bool dented = false;
     bool likely = false;
     for (size_t c = 0; c < n; c++) {
-        enum percuss_status status = find_law(problem, tables, c, fault);
+        enum percuss_status status = find_law(problem, catalogue, tables, c, fault);
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
@@ -279,8 +329,9 @@ enum percuss_status contact_model_choose(struct problem *problem,
 bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact)
 {
-    return outcome->laws[contact].history.max_indentation >
-           problem->contact_model.laws[contact].history.max_indentation;
+    return !problem->contact_model.choices[contact].own &&
+           outcome->laws[contact].history.max_indentation >
+               problem->contact_model.laws[contact].history.max_indentation;
 }
 
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact)
@@ -318,8 +369,13 @@ const struct contact_law_operations *contact_model_used(const struct problem *pr
     const struct contact_law_operations *used = laws[0].operations;
     for (size_t c = 1; c < problem->contact_count; c++) {
         const struct contact_law_operations *here = laws[c].operations;
-        /* a law that yields counts for all, and of those one that approximates tables */
-        if (here->curve && (!used->curve || here->tables == CONTACT_TABLES_NONE))
+        /* a law of the catalogue counts for all, then one that yields, and of those one that
+         * approximates tables */
+        if (used->model == PERCUSS_CONTACT_LAW)
+            continue;
+        if (here->model == PERCUSS_CONTACT_LAW)
+            used = here;
+        else if (here->curve && (!used->curve || here->tables == CONTACT_TABLES_NONE))
             used = here;
     }
     return used;
@@ -397,10 +453,30 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
         text_format(text, "; hardening of %s left out", body->id);
 }
 
+static void explain_own(const struct problem *problem, const struct impact_outcome *outcome,
+                        struct text *text)
+{
+    size_t c = 0, others = 0;
+    while (!problem->contact_model.choices[c].own)
+        c++;
+    const struct contact_choice *choice = &problem->contact_model.choices[c];
+    for (size_t i = 0; i < problem->contact_count; i++)
+        others += problem->contact_model.choices[i].own != choice->own;
+    text_format(text, "the catalogue's law %s: %s, indented %.3g mm under %.3g N",
+                choice->own->name, choice->plastic.operations->title,
+                1e3 * outcome_deepest(outcome, c), outcome_peak_force(outcome, c));
+    if (contact_model_beyond_table(outcome, c) > 0.0)
+        text_add(text, "; its points end before that");
+    if (others > 0)
+        text_format(text, "; %zu contacts have others", others);
+}
+
 void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
                            struct text *text)
 {
-    if (contact_model_used(problem)->curve)
+    if (contact_model_used(problem)->model == PERCUSS_CONTACT_LAW)
+        explain_own(problem, outcome, text);
+    else if (contact_model_used(problem)->curve)
         explain_plastic(problem, outcome, text);
     else
         explain_elastic(problem, outcome, text);
@@ -519,6 +595,15 @@ static bool any_mesh(const struct problem *problem)
     return false;
 }
 
+/* A law of the catalogue is the whole indentation of its pair. */
+static bool any_own(const struct problem *problem)
+{
+    for (size_t c = 0; c < problem->contact_count; c++)
+        if (problem->contact_model.choices[c].own)
+            return true;
+    return false;
+}
+
 static void find_matched(struct problem *problem, bool asked)
 {
     struct compliance *compliance = &problem->compliance;
@@ -560,7 +645,8 @@ enum percuss_status compliance_choose(struct problem *problem, enum percuss_comp
     enum percuss_compliance wanted = asked;
     if (asked == PERCUSS_COMPLIANCE_DEFAULT)
         wanted = any_mesh(problem) ? PERCUSS_COMPLIANCE_MATCHED : otherwise;
-    if (wanted == PERCUSS_COMPLIANCE_HALF_SPACE)
+    if (wanted == PERCUSS_COMPLIANCE_HALF_SPACE ||
+        (any_own(problem) && asked != PERCUSS_COMPLIANCE_MATCHED))
         use_half_space(problem, "");
     else
         find_matched(problem, asked == PERCUSS_COMPLIANCE_MATCHED);
@@ -575,7 +661,11 @@ static double largest_stiffness(const struct problem *problem, const struct impa
     /* the law that was in use: one that remembers is stiffer at first than Hertz's */
     const struct contact_law *law = &outcome->laws[c];
     double k = law->operations->remembers ? law->parameters[0] : problem->hertz[c].stiffness;
-    double force = outcome_peak_force(outcome, c);
+    double force = outcome_peak_force(outcome, c), slope = 0.0;
+    if (problem->contact_model.choices[c].own) {
+        contact_law_force(law, outcome_deepest(outcome, c), &slope);
+        return fmax(slope, contact_law_unloading(law));
+    }
     return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 

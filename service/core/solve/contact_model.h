@@ -30,6 +30,7 @@ struct contact_choice {
     bool family;               /* the table is one of the family's */
     bool both;                 /* ... where both bodies flow */
     double outside;            /* ... and this far outside its axes */
+    const struct own_law *own; /* the catalogue's law, which is `plastic` then; NULL: none */
     struct contact_loss *loss; /* what the materials lose; NULL: nothing is stated, or it cannot be
                                   in the law */
     struct contact_law compared; /* the family's law, where the closed form is used; or without
@@ -37,9 +38,9 @@ struct contact_choice {
 };
 
 /* Finds the laws that the request asks for, the likely ones where it leaves the choice, and makes
- * them the problem's. `tables` may be NULL. PERCUSS_OK, BAD_REQUEST (a table is asked for that
- * does not exist), INTERNAL. */
-enum percuss_status contact_model_choose(struct problem *problem,
+ * them the problem's. `tables` may be NULL. PERCUSS_OK, BAD_REQUEST (a table or a law of the
+ * catalogue is asked for that does not exist), INTERNAL. */
+enum percuss_status contact_model_choose(struct problem *problem, const struct body_set *catalogue,
                                          const struct contact_table_source *tables,
                                          struct fault *fault);
 

@@ -496,7 +496,7 @@ enum percuss_status formulate(struct problem *problem, const struct solve_contex
     struct pace pace = {.watch = &context->watch};
     enum percuss_status status = placement_find(problem, context->catalogue, fault);
     if (!status)
-        status = contact_model_choose(problem, context->tables, fault);
+        status = contact_model_choose(problem, context->catalogue, context->tables, fault);
     if (!status && problem->request->options.contact_model != PERCUSS_CONTACT_COMPLETE_FE)
         status = vibration_lend(problem, context->catalogue->boxes, &pace, fault);
     if (!status)

@@ -69,6 +69,13 @@ struct prepared_parts {
     size_t count;
 };
 
+/* Curves of a law of the catalogue. */
+struct prepared_law {
+    struct prepared_law *next;
+    char name[PERCUSS_ID_SIZE];
+    struct contact_curves *curves;
+};
+
 struct prepared_cache {
     struct ritz_store *boxes; /* source of those held; NULL: none is in use yet */
     struct held *held;
@@ -80,6 +87,7 @@ struct prepared_cache {
     size_t bytes;                    /* of all entries, as they were counted last */
     struct entry *touched;           /* what has to be counted anew */
     struct prepared_parts parts;
+    struct prepared_law *laws;
 };
 
 /* Participations of the first modes in one load. */
@@ -304,6 +312,16 @@ static void forget_bodies(struct prepared_cache *cache, bool only_varied)
     cache->varied = 0;
 }
 
+static void forget_laws(struct prepared_cache *cache)
+{
+    while (cache->laws) {
+        struct prepared_law *next = cache->laws->next;
+        contact_curves_free(cache->laws->curves);
+        free(cache->laws);
+        cache->laws = next;
+    }
+}
+
 static void free_retired(struct prepared_cache *cache)
 {
     if (cache->retired)
@@ -390,6 +408,7 @@ void prepared_cache_free(struct prepared_cache *cache)
     ritz_store_free(cache->boxes);
     free_retired(cache);
     forget_bodies(cache, false);
+    forget_laws(cache);
     free(cache);
 }
 
@@ -405,7 +424,34 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision)
     if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
         return;
     forget_bodies(cache, false);
+    forget_laws(cache);
     snprintf(cache->revision, sizeof cache->revision, "%s", revision);
+}
+
+enum percuss_status prepared_curves_get(struct prepared_cache *cache, const struct own_law *own,
+                                        const struct contact_curves **curves, struct fault *fault)
+{
+    struct prepared_law *law = cache->laws;
+    *curves = NULL;
+    if (!own->points.count)
+        return PERCUSS_OK;
+    while (law && strcmp(law->name, own->name) != 0)
+        law = law->next;
+    if (!law) {
+        law = calloc(1, sizeof *law);
+        if (!law)
+            return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        enum percuss_status status = own_curves_create(own, &law->curves, fault);
+        if (status) {
+            free(law);
+            return status;
+        }
+        memcpy(law->name, own->name, sizeof law->name);
+        law->next = cache->laws;
+        cache->laws = law;
+    }
+    *curves = law->curves;
+    return PERCUSS_OK;
 }
 
 static struct entry **find_bucket(struct prepared_cache *cache, const char *id)

@@ -8,6 +8,7 @@
 #define PERCUSS_SOLVE_PREPARED_H
 
 #include "contact/hertz.h"
+#include "contact/law_own.h"
 #include "impact/step_table.h"
 #include "model/modal_basis.h"
 
@@ -101,6 +102,11 @@ double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz
                                  int side, const double point[3]);
 bool prepared_ritz_tensor(struct prepared_cache *cache, const struct ritz *ritz, int axis, int side,
                           const double point[3], double tensor[6]);
+
+/* The curves of a law's points (contact/law_own.h), the cache's as long as its catalogue is in use;
+ * NULL: it has none. PERCUSS_OK, BAD_REQUEST or INTERNAL. */
+enum percuss_status prepared_curves_get(struct prepared_cache *cache, const struct own_law *own,
+                                        const struct contact_curves **curves, struct fault *fault);
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the

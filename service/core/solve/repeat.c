@@ -108,6 +108,7 @@ static bool lasts(const struct problem *problem)
         lasts = lasts && !(problem->bodies[b]->kind->box && body_can_vibrate(problem->bodies[b]));
     for (size_t c = 0; c < problem->contact_count; c++)
         lasts = lasts && problem->contact_model.choices[c].side < 0 &&
+                !problem->contact_model.choices[c].own &&
                 !problem->contact_model.laws[c].operations->remembers;
     return lasts;
 }

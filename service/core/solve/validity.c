@@ -428,6 +428,19 @@ static void find_between(const struct problem *problem, size_t c, struct warning
     }
 }
 
+/* Of a law of the catalogue, whose shape and material are not the bodies'. */
+static void find_end_of_points(const struct problem *problem, const struct impact_outcome *outcome,
+                               size_t c, struct warnings *warnings)
+{
+    const struct own_law *own = problem->contact_model.choices[c].own;
+    double beyond = contact_model_beyond_table(outcome, c);
+    if (beyond > 0.0)
+        warnings_add(warnings, WARNING_TABLE_END,
+                     "contacts[%zu]: the points of the law %s end before the largest indentation, "
+                     "by %.2g of their range: the force goes on by their last slope",
+                     c, own->name, beyond);
+}
+
 static void find_contact(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
@@ -435,10 +448,14 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     double force = outcome_peak_force(outcome, c);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
-    if (!contact_model_used(problem)->curve)
-        find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
-    find_size(problem, outcome, c, axes[0], warnings);
-    find_place(problem, outcome, c, axes[0], warnings);
+    if (problem->contact_model.choices[c].own) {
+        find_end_of_points(problem, outcome, c, warnings);
+    } else {
+        if (!contact_model_used(problem)->curve)
+            find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
+        find_size(problem, outcome, c, axes[0], warnings);
+        find_place(problem, outcome, c, axes[0], warnings);
+    }
     find_sliding(problem, outcome, c, approach, warnings);
     if (problem->friction_count) {
         find_turn(problem, outcome, c, axes[0], warnings);
@@ -448,7 +465,8 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_rigid(problem, outcome, c, warnings);
     find_breadth(problem, c, warnings);
     find_between(problem, c, warnings);
-    loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
+    if (!problem->contact_model.choices[c].own)
+        loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
     askew_find(problem, c, model_impact_of(problem, outcome, c).duration, warnings);
     if (unstated_any(problem, c)) {
         struct unstated_impact blow = unstated_impact_of(problem, outcome, c);

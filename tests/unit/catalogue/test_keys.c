@@ -325,8 +325,7 @@ static void refuses_bad_tops(void **state)
     parse_bad(MATERIALS "  {}\n", 5, "bodies: 0 entries: must be 1 to");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\nsettings: 1\n", 6,
               "settings: unknown key; the keys of the catalogue are materials, bodies, contact, "
-              "friction, "
-              "begin, end");
+              "friction, laws, begin, end");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {compliance: exact}\n",
               6, "contact.compliance: exact: must be one of half-space, matched");
     parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {friction: 1}\n", 6,

@@ -85,9 +85,9 @@ static void check_meanings(const struct key_table *table)
 static void every_key_has_a_meaning(void **state)
 {
     (void)state;
-    const struct key_table *const tables[] = {&keys_top,      &keys_contact,   &keys_friction,
-                                              &keys_material, &keys_body,      &keys_own,
-                                              &keys_site,     &keys_relaxation};
+    const struct key_table *const tables[] = {&keys_top,      &keys_contact,    &keys_friction,
+                                              &keys_material, &keys_body,       &keys_own,
+                                              &keys_site,     &keys_relaxation, &keys_law};
     const struct body_kind *kind;
     for (size_t i = 0; i < COUNT(tables); i++)
         check_meanings(tables[i]);

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/contact/laws.c, law_hertz.c, law_linear.c and law_dissipative.c: what may be
- * asked for is known by its number; force, slope, stored energy and inverse of one law fit
- * together. The pattern for the test of a new law. */
+/* Mirrors service/core/contact/laws.c, law_hertz.c, law_linear.c, law_power.c and
+ * law_dissipative.c: what may be asked for is known by its number; force, slope, stored energy and
+ * inverse of one law fit together. The pattern for the test of a new law. */
 #include "check.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
@@ -64,6 +64,17 @@ static void linear_fits_together(void **state)
     near_relative(contact_law_force(&law, 1e-4, &slope), 300.0, 1e-15);
     near_relative(slope, 3e6, 0.0);
     near_relative(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
+}
+
+static void power_fits_together(void **state)
+{
+    (void)state;
+    double slope;
+    for (double exponent = 1.0; exponent <= 3.0; exponent += 0.5) {
+        struct contact_law law = contact_law_power(4e7, exponent, 0.0);
+        check_law(&law);
+        near_relative(contact_law_force(&law, 1e-4, &slope), 4e7 * pow(1e-4, exponent), 1e-15);
+    }
 }
 
 /* At rest as every elastic law; moving, slopes by indentation and rate are those of differences,
@@ -128,6 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hertz_fits_together),
         cmocka_unit_test(linear_fits_together),
+        cmocka_unit_test(power_fits_together),
         cmocka_unit_test(hunt_and_crossleys_fits_together),
         cmocka_unit_test(every_model_is_found_by_its_number),
     };

@@ -54,7 +54,7 @@ static inline void bench_assemble(struct bench *bench, double cut)
 {
     struct fault fault = {""};
     struct mode_choice choice = {.cut = cut, .most = MODE_CHOICE_MOST};
-    assert_int_equal(contact_model_choose(bench->problem, NULL, &fault), PERCUSS_OK);
+    assert_int_equal(contact_model_choose(bench->problem, &bench->lab->set, NULL, &fault), PERCUSS_OK);
     assert_true(assemble(&bench->assembly, bench->problem, &choice));
 }
 

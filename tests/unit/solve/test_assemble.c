@@ -171,7 +171,7 @@ static void less_allowed_is_more_modes(void **state)
     struct problem *problem = problem_create(&request, bench->cache, &bench->arena);
     assert_non_null(problem);
     assert_false(placement_find(problem, &bench->lab->set, &fault));
-    assert_false(contact_model_choose(problem, NULL, &fault));
+    assert_false(contact_model_choose(problem, &bench->lab->set, NULL, &fault));
     for (double allowed = 1e-3; allowed > 1e-9; allowed /= 10.0) {
         struct mode_choice choice = {.cut = INFINITY, .allowed = allowed, .most = 1000};
         assert_true(assemble(&bench->assembly, problem, &choice));

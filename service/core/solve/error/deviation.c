@@ -122,11 +122,13 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
                             double duration)
 {
     double sum = 0.0;
+    bool own = problem->contact_model.choices[contact].own;
     for (int which = 0; which < 2; which++) {
         const struct contact_side *side = &problem->sides[contact][which];
         const struct body *body = problem->bodies[side->body];
         double size = scale_of(body);
-        if (isfinite(size) && (all || body_is_flexible(body)))
+        /* a law of the catalogue has the place's own flexibility */
+        if (!own && isfinite(size) && (all || body_is_flexible(body)))
             sum += unknown_compliance(problem, side) / (body->material.young * size) +
                    near_edge(problem, contact, which) + side->load.family[0].mesh.unknown;
         sum += across_of(problem, contact, which, duration).compliance;
@@ -164,12 +166,13 @@ static double force_of(const struct problem *problem, size_t contact,
                        const struct model_impact *impact)
 {
     double axes[2];
-    double sum = 0.0;
+    const struct own_law *own = problem->contact_model.choices[contact].own;
+    double sum = own ? own->deviation : 0.0;
     hertz_ellipse(&problem->hertz[contact], impact->force, axes);
     for (int which = 0; which < 2; which++) {
         const struct contact_side *side = &problem->sides[contact][which];
         const struct body *body = problem->bodies[side->body];
-        double ratio = axes[0] / body_smallest_radius(body);
+        double ratio = own ? 0.0 : axes[0] / body_smallest_radius(body);
         sum = hypot(sum, PATCH * ratio * ratio);
         sum = hypot(sum, 2.0 * theory_of(body, &side->site, impact->duration));
     }
@@ -299,12 +302,23 @@ struct model_impact model_impact_of(const struct problem *problem,
     return impact;
 }
 
+/* By a law of the catalogue. */
+static struct model_impact own_impact(const struct contact_law *law, double work, double speed)
+{
+    double d = law_error_depth(law, work), slope;
+    return (struct model_impact){.force = contact_law_force(law, d, &slope),
+                                 .indentation = d,
+                                 .duration = speed > 0.0 ? HERTZ_DURATION * d / speed : INFINITY};
+}
+
 /* By Hertz's law. */
 static struct model_impact elastic_impact(const struct problem *problem, size_t contact,
                                           double speed)
 {
     const struct hertz_contact *hertz = &problem->hertz[contact];
     double work = 0.5 * speed * speed / problem->w[contact * (problem->contact_count + 1)];
+    if (problem->contact_model.choices[contact].own && work > 0.0)
+        return own_impact(&problem->contact_model.choices[contact].plastic, work, speed);
     double depth = pow(work / (HERTZ_WORK * hertz->stiffness), 0.4);
     return (struct model_impact){.force = hertz->stiffness * depth * sqrt(depth),
                                  .indentation = depth,

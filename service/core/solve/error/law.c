@@ -27,14 +27,20 @@ static double restitution_from(const struct contact_law *law, double depth, doub
     return sqrt(used.operations->stored(&used, contact_law_limit(&used)) / work);
 }
 
+/* To begin with where a law does not say where it yields, m. */
+static const double FIRST_DEPTH = 1e-6;
+
 double law_error_depth(const struct contact_law *law, double work)
 {
     const struct plastic_curve *curve = law->operations->curve;
-    double d = curve->yield(law);
+    double d = curve ? curve->yield(law) : 0.0;
+    d = d > 0.0 && isfinite(d) ? d : FIRST_DEPTH;
     for (int i = 0; i < 60; i++) {
         double slope;
-        double here = curve->work(law, d);
-        double change = log(work / here) * here / (curve->force(law, d, &slope) * d);
+        double here = curve ? curve->work(law, d) : law->operations->stored(law, d);
+        double force =
+            curve ? curve->force(law, d, &slope) : law->operations->force(law, d, &slope);
+        double change = log(work / here) * here / (force * d);
         d *= exp(fmax(-3.0, fmin(change, 3.0)));
         if (!(fabs(change) > 1e-9))
             break;
@@ -234,7 +240,8 @@ double law_error_worst(const struct problem *problem, const struct impact_outcom
 
 static bool is_unstated(const struct problem *problem, size_t contact, int which)
 {
-    if (!problem_body(problem, contact, which)->yield_unstated)
+    if (problem->contact_model.choices[contact].own ||
+        !problem_body(problem, contact, which)->yield_unstated)
         return false;
     const struct material *material = problem_material(problem, contact, which);
     return isinf(material->yield) && plausible_metal(material->young, material->density);
@@ -438,7 +445,8 @@ static double stated_loss(const struct problem *problem, size_t contact, double 
 {
     for (int which = 0; which < 2; which++) {
         double loss_factor = problem_body(problem, contact, which)->loss_factor;
-        part[which] = isnan(loss_factor) || has_loss(problem, contact)
+        part[which] = isnan(loss_factor) || has_loss(problem, contact) ||
+                              problem->contact_model.choices[contact].own
                           ? 0.0
                           : indentation_share(problem, contact, which) * loss_factor;
     }
