@@ -235,8 +235,8 @@ static void refuses_bad_options(void **state)
             "options.horizon: -1: must be 0 (the default) or in [1e-09, 10]");
     REFUSED(wire.options.horizon, 11.0,
             "options.horizon: 11: must be 0 (the default) or in [1e-09, 10]");
-    REFUSED(wire.options.contact_model, 7,
-            "options.contact_model: 7: must be one of 0 (auto), 1 (hertz), 2 (closed-form), 3 "
+    REFUSED(wire.options.contact_model, 8,
+            "options.contact_model: 8: must be one of 0 (auto), 1 (hertz), 2 (closed-form), 3 "
             "(table), 4 (concurrent-fe), 5 (complete-fe), 6 (viscoelastic), 7 (law)");
     REFUSED(wire.options.method, 2, "options.method: 2: must be one of 0 (modal), 1 (cvode)");
     REFUSED(wire.options.compliance, 3,

@@ -111,7 +111,7 @@ static void modes_are_those_of_the_impact_s_frequency(void **state)
     stated.damping = 0.5 * LOSS;
     hit_rod(stated);
     const struct solve_result by_factor = result;
-    double omega = M_PI / by_factor.contacts[0].sub_impacts[0].end;
+    double omega = M_PI / by_factor.contacts[0].end_time;
     struct body series = relaxing(rod, omega);
     series.damping_peak = relaxation_peak_loss(&series.relaxation, 0.0);
     series.damping = 0.5 * series.damping_peak;
