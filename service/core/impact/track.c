@@ -202,6 +202,8 @@ void track_close(struct track *track, const struct contact_law *law, double time
 {
     struct sub_impact *open = &track->open;
     double stiffness;
+    if (law->operations->lossy && track->largest_force == 0.0)
+        return;
     open->end = time;
     open->gap_rate_after = gap_rate;
     open->peak_force = contact_law_force(law, open->max_indentation - track->deepened, &stiffness);

@@ -58,7 +58,8 @@ void track_work(struct track *track, double h, const double *force, const double
 void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
                  const double *stuck);
 
-/* Ends the one under way: separation, or the end of the window. */
+/* Ends the one under way: separation, or the end of the window. One of a lossy law that has borne
+ * no force, above a surface that has not come back, is none. */
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate);
 
 /* Sets `negligible` of every listed one: below 1 % of the contact's impulse. */

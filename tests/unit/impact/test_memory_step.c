@@ -222,6 +222,24 @@ static void second_blows_find_a_surface_that_recovers(void **state)
     }
 }
 
+/* What comes back may pass the place of the surface at rest, and not touch what is left of it. */
+static void what_does_not_touch_is_no_blow(void **state)
+{
+    (void)state;
+    static const struct relaxation of = {1, {0.9}, {10.0}};
+    static const double omega = 0.6214, phi = 0.7;
+    struct toy toy;
+    toy_init(&toy, 1);
+    toy_add(&toy, 0, 1, &omega, 0.0, &phi);
+    toy.laws[0] = contact_law_viscoelastic(1.0, &of);
+    toy.gap_rate[0] = -1.0;
+    struct impact_outcome modal = toy_run(&toy, 1e-9, 1e3), cvode = toy_cvode(&toy, 1e-10, 1e3);
+    assert_int_equal(modal.tracks[0].count, 1);
+    assert_int_equal(cvode.tracks[0].count, 1);
+    measured("restitution", modal.motion.gap_rate[0], cvode.motion.gap_rate[0], 1e-7);
+    toy_free(&toy);
+}
+
 /* Modes, a compliance in series and a load that presses, and the end of the window within the
  * contact: the energy closes. */
 static void the_energy_closes_beside_modes(void **state)
@@ -256,6 +274,7 @@ int main(void)
         cmocka_unit_test(free_circles_recover_by_modes),
         cmocka_unit_test(balls_rebound_by_tings_rule),
         cmocka_unit_test(second_blows_find_a_surface_that_recovers),
+        cmocka_unit_test(what_does_not_touch_is_no_blow),
         cmocka_unit_test(the_energy_closes_beside_modes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
