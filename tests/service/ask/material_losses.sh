@@ -150,9 +150,10 @@ pair() {
     awk -v e="$(field restitution)" -v low="$4" -v high="$5" 'BEGIN { exit !(e > low && e < high) }' ||
         fail "$1 on $2: $(field restitution)"
 }
-# the compliance in series must not be more negative than the law in use bears
-pair soft-ball beam 0.2 0.36 0.38
-pair steel-ball beam 0.2 0.58 0.60
+# the compliance in series must not be more negative than the law in use bears; the first contacts
+# part and grow again, the second ones find what is left (0.368 and 0.592 if nothing were)
+pair soft-ball beam 0.2 0.35 0.357
+pair steel-ball beam 0.2 0.612 0.616
 # it has parted long before its surface has come back, which is behind the horizon
 pair slow-ball wall 0.3 0.307 0.309
 pair tiny-ball wall 0.2 0.9999 1.0001
