@@ -12,6 +12,7 @@ materials:
   rubber: {young: 5 MPa, poisson: 0.49, density: 1100}
   ideal:  {young: 5 MPa, poisson: 0.49, density: 1100, loss_factor: 0}
   pom:    {young: 4 GPa, poisson: 0.40, density: 1410, relaxation: [{share: 0.1, time: 30 us}, {share: 0.1, time: 0.3 ms}]}
+  felt:   {young: 5 MPa, poisson: 0.3, density: 3000}
 bodies:
   ball:   {shape: sphere, material: steel, radius: 15 mm}
   bead:   {shape: sphere, material: nylon, radius: 15 mm}
@@ -21,7 +22,12 @@ bodies:
   bar:    {shape: rod, material: nylon, radius: 10 mm, length: 1}
   pad:    {shape: half-space, material: pom}
   bell:   {shape: rod, material: nylon, radius: 10 mm, length: 1, damping: 0}
+  felt:   {shape: sphere, material: felt, radius: 15 mm}
+laws:
+  buffer: {between: [steel, felt], points: press.csv, unloading: release.csv}
 YAML
+printf 'm,N\n0,0\n2e-4,1.5\n5e-4,7\n1e-3,20\n2e-3,56\n' >"$work/press.csv"
+printf '2e-3,56\n1.5e-3,20\n1e-3,4\n5e-4,0\n' >"$work/release.csv"
 lost="of itself in the contact (loss_factor 0.06) is not in the answer: the restitution is lower by about 0.0"
 settings "workers: 2"
 start_daemon
@@ -76,6 +82,16 @@ say "the same in process"
 expect 0 "$bin/percuss" query --local --catalogue "$work/catalogue.yaml" --a ball --b stop --speed 0.3 \
     --contact-model hertz
 says "contacts[0]: what stop loses $lost"
+
+say "a law of the catalogue has its own loss, and says so"
+expect 0 percuss query --a ball --b felt --speed 0.3
+grep -qF "the catalogue's law buffer: points of the catalogue" "$out" || fail "not named"
+! grep -q "energy of themselves" "$err" || fail "the law has the loss"
+expect 0 percuss query --a ball --b felt --speed 0.3 --json
+[ "$(field contact_model)" = law ] || fail "$(field contact_model)"
+awk -v e="$(field restitution)" 'BEGIN { exit !(e > 0.7 && e < 0.8) }' || fail "e = $(field restitution)"
+expect 5 percuss query --a ball --b stop --speed 0.3 --contact-model law
+says "options.contact_model: law: the catalogue has no law between steel and nylon (contacts[0])"
 
 say "by finite elements it is not in the number either"
 expect 0 percuss query --a ball --b bead --speed 0.3 --contact-model complete-fe --tolerance 0.05 --timeout 300
