@@ -79,7 +79,7 @@ bodies:
 END
 
 say "the example of the page and of the man page is good"
-awk '/^```yaml/ { inside = 1; next } /^```/ { inside = 0 } inside' "$source_dir/docs/reference/catalogue.md" | catalogue
+awk '/^```yaml/ { inside = 1; next } /^```/ && inside { exit } inside' "$source_dir/docs/reference/catalogue.md" | catalogue
 expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
 awk '/^.Bd/ { inside = 1; next } /^.Ed/ { inside = 0 } inside' "$source_dir/client/man/percuss-catalogue.5" | catalogue
 expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
