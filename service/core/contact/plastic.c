@@ -84,6 +84,27 @@ double contact_law_unloading(const struct contact_law *law)
     return slope * law->history.max_force / span_of(&law->history);
 }
 
+/* To begin with where a law does not say where it yields, m. */
+static const double FIRST_DEPTH = 1e-6;
+
+double contact_law_depth(const struct contact_law *law, double work)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    double d = curve ? curve->yield(law) : 0.0;
+    d = d > 0.0 && isfinite(d) ? d : FIRST_DEPTH;
+    for (int i = 0; i < 60; i++) {
+        double slope;
+        double here = curve ? curve->work(law, d) : law->operations->stored(law, d);
+        double force =
+            curve ? curve->force(law, d, &slope) : law->operations->force(law, d, &slope);
+        double change = log(work / here) * here / (force * d);
+        d *= exp(fmax(-3.0, fmin(change, 3.0)));
+        if (!(fabs(change) > 1e-9))
+            break;
+    }
+    return d;
+}
+
 /* The history after a largest depth on the virgin curve. */
 static struct contact_history history_of(const struct contact_law *law, double depth)
 {

@@ -56,6 +56,9 @@ double contact_law_limit(const struct contact_law *law);
 /* Stiffness (N/m) at the top of the unloading branch; 0: the law has no branch yet. */
 double contact_law_unloading(const struct contact_law *law);
 
+/* Depth at which a law has taken up a work (J), of one that yields from its virgin curve, m. */
+double contact_law_depth(const struct contact_law *law, double work);
+
 /* The law after a largest depth (m, from the undeformed surface) of at least its history's and its
  * yield. */
 struct contact_law contact_law_after(const struct contact_law *law, double depth);

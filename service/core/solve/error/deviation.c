@@ -305,7 +305,7 @@ struct model_impact model_impact_of(const struct problem *problem,
 /* By a law of the catalogue. */
 static struct model_impact own_impact(const struct contact_law *law, double work, double speed)
 {
-    double d = law_error_depth(law, work), slope;
+    double d = contact_law_depth(law, work), slope;
     return (struct model_impact){.force = contact_law_force(law, d, &slope),
                                  .indentation = d,
                                  .duration = speed > 0.0 ? HERTZ_DURATION * d / speed : INFINITY};
@@ -343,7 +343,7 @@ struct model_impact model_impact_expected(const struct problem *problem, size_t 
     if (choice->side < 0 || !(depth > choice->yield))
         return impact;
     struct contact_law law = choice->plastic;
-    depth = law_error_depth(&law, work);
+    depth = contact_law_depth(&law, work);
     if (!(depth > law.history.max_indentation))
         return impact;
     contact_law_yield(&law, depth - law.history.dent);

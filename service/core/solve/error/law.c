@@ -27,33 +27,12 @@ static double restitution_from(const struct contact_law *law, double depth, doub
     return sqrt(used.operations->stored(&used, contact_law_limit(&used)) / work);
 }
 
-/* To begin with where a law does not say where it yields, m. */
-static const double FIRST_DEPTH = 1e-6;
-
-double law_error_depth(const struct contact_law *law, double work)
-{
-    const struct plastic_curve *curve = law->operations->curve;
-    double d = curve ? curve->yield(law) : 0.0;
-    d = d > 0.0 && isfinite(d) ? d : FIRST_DEPTH;
-    for (int i = 0; i < 60; i++) {
-        double slope;
-        double here = curve ? curve->work(law, d) : law->operations->stored(law, d);
-        double force =
-            curve ? curve->force(law, d, &slope) : law->operations->force(law, d, &slope);
-        double change = log(work / here) * here / (force * d);
-        d *= exp(fmax(-3.0, fmin(change, 3.0)));
-        if (!(fabs(change) > 1e-9))
-            break;
-    }
-    return d;
-}
-
 /* How much less, or more, of the same work the contact gives back by the family. */
 static double against_family(const struct contact_law *law, const struct contact_law *family,
                              double depth)
 {
     double work = law->operations->curve->work(law, depth);
-    double other = law_error_depth(family, work);
+    double other = contact_law_depth(family, work);
     if (!(other > family->operations->curve->yield(family)))
         return 0.0;
     double e = restitution_from(law, depth, work);
@@ -223,7 +202,7 @@ double law_error_yield(const struct contact_law *law, double depth, double share
     struct contact_law harder = contact_law_rescaled(law, 1.0, 1.0 + step);
     double work = law->operations->curve->work(law, depth);
     double e = restitution_from(law, depth, work);
-    double more = restitution_from(&harder, law_error_depth(&harder, work), work);
+    double more = restitution_from(&harder, contact_law_depth(&harder, work), work);
     double slope = log(more / e) / log1p(step);
     return slope > 0.0 ? fmin(exp(share / slope), most) : most;
 }

@@ -39,9 +39,6 @@ double law_error(const struct problem *problem, const struct impact_outcome *out
 void law_error_parts(const struct problem *problem, size_t contact,
                      const struct contact_history *history, double parts[2]);
 
-/* Depth at which a law has taken up a work, of one that yields from its virgin curve, m. */
-double law_error_depth(const struct contact_law *law, double work);
-
 /* Factor of the yield stress that changes the rebound of a contact alone from a depth by
  * the share `share` of its restitution; at most 3. */
 double law_error_yield(const struct contact_law *law, double depth, double share);
