@@ -44,6 +44,9 @@ void describe_body(const struct body *body, percuss_v1_Body *wire,
     if (body->relaxation.count > 0)
         describe_add(&description, "modulus relaxes to %.3g of young in %zu terms",
                      relaxation_storage(&body->relaxation, 0.0), body->relaxation.count);
+    if (yield_rate_is_stated(&body->yield_rate))
+        describe_add(&description, "yield by rate of strain, %g times at 1000 1/s",
+                     yield_rate_factor(&body->yield_rate, 1000.0));
     if (isinf(body->material.yield) && !body->yield_unstated)
         describe_add(&description, PLAUSIBLE_ELASTIC);
     memcpy(wire->half_extents, description.half_extents, sizeof wire->half_extents);

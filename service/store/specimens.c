@@ -351,6 +351,13 @@ static void describe_signature(const struct body *body, char signature[SIGNATURE
              body->kind->name, body->radius, body->length, body->width, body->height,
              body->tip_radius, body->size[0], body->size[1], body->size[2], material->young,
              material->poisson, material->density, material->yield, material->tangent);
+    /* files of bodies without one stay as they are */
+    size_t length = strlen(signature);
+    if (yield_rate_is_stated(&body->yield_rate))
+        snprintf(signature + length, SIGNATURE_SIZE - length,
+                 " rate reference %.17g exponent %.17g coefficient %.17g",
+                 body->yield_rate.reference, body->yield_rate.exponent,
+                 body->yield_rate.coefficient);
 }
 
 static enum percuss_status count_all(struct specimen_store *store, struct fault *fault)

@@ -266,6 +266,8 @@ static enum percuss_status read_material(struct reader *reader, struct entry ent
     struct fault fault = {0};
     if (material_check(material, &fault))
         return refuse_field(reader, entry, fault.text);
+    if (yield_rate_is_stated(&stated->yield_rate) && isinf(material->yield))
+        return refuse_field(reader, entry, "rate: must be absent without yield");
     reader_leave(reader, mark);
     return PERCUSS_OK;
 }
@@ -502,6 +504,7 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
         body->material = materials->list[position].material;
         body->loss_factor = materials->list[position].loss_factor;
         body->relaxation = materials->list[position].relaxation;
+        body->yield_rate = materials->list[position].yield_rate;
         body->yield_unstated = materials->list[position].yield_unstated;
         return PERCUSS_OK;
     }

@@ -400,6 +400,21 @@ static const struct key law_keys[] = {
      KEY_SAYS("0.05", "standard deviation of the force, over the force")},
 };
 const struct key_table keys_law = {"law", TABLE(law_keys)};
+static const struct key rate_keys[] = {
+    {"reference", KEY_NUMBER, &limit_rate, true, KEY_OF(stated_material, yield_rate.reference),
+     KEY_SAYS(NULL, "rate of strain to which the exponent or the coefficient belongs")},
+    {"exponent", KEY_NUMBER, &limit_rate_exponent, KEY_OF(stated_material, yield_rate.exponent),
+     .instead = {"coefficient"},
+     KEY_SAYS("coefficient stands instead",
+              "of the law of Cowper and Symonds: q, by which the stress is 1 + "
+              "(rate/reference)^(1/q) times that of a slow test")},
+    {"coefficient", KEY_NUMBER, &limit_rate_coefficient,
+     KEY_OF(stated_material, yield_rate.coefficient), .instead = {"exponent"},
+     KEY_SAYS("exponent stands instead",
+              "of the law of Johnson and Cook: C, by which the stress is 1 + C ln(rate/reference) "
+              "times that of a slow test, from the reference on")},
+};
+static const struct key_table keys_rate = {"rate", TABLE(rate_keys)};
 
 static const struct key material_keys[] = {
     {"young", KEY_NUMBER, &limit_young, true, KEY_OF(stated_material, material.young),
@@ -418,6 +433,8 @@ static const struct key material_keys[] = {
          "is meant to stay elastic")},
     {"tangent", KEY_NUMBER, &limit_tangent, false, KEY_OF(stated_material, material.tangent),
      KEY_SAYS("0", "slope of the stress-strain curve beyond yield; 0: ideally plastic")},
+    {"rate", KEY_SECTION, .nested = &keys_rate,
+     KEY_SAYS("yield is that of any rate", "how the yield stress grows with the rate of strain")},
     {"loss_factor", KEY_NUMBER, &limit_loss_factor, false, KEY_OF(stated_material, loss_factor),
      KEY_SAYS("not stated",
               "energy that a cycle of strain loses over 2 pi of what it stores, tan delta: 0.02 to "

@@ -9,12 +9,14 @@
 #include "model/key.h"
 #include "model/material.h"
 #include "model/relaxation.h"
+#include "model/yield_rate.h"
 
 /* A material as the catalogue states it. */
 struct stated_material {
     struct material material;
     double loss_factor;           /* as struct body's */
     struct relaxation relaxation; /* the same */
+    struct yield_rate yield_rate; /* the same */
     bool yield_unstated;          /* the same */
 };
 

@@ -111,6 +111,12 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_doubles(hash, body->relaxation.time, body->relaxation.count);
         hash_double(hash, body->damping_peak);
     }
+    if (yield_rate_is_stated(&body->yield_rate)) {
+        hash_text(hash, "rate");
+        hash_double(hash, body->yield_rate.reference);
+        hash_double(hash, body->yield_rate.exponent);
+        hash_double(hash, body->yield_rate.coefficient);
+    }
     if (isinf(body->material.yield) && !body->yield_unstated)
         hash_text(hash, "yield: none");
     if (body->mesh)

@@ -15,6 +15,7 @@
 #include "model/mesh_body.h"
 #include "model/own_law.h"
 #include "model/relaxation.h"
+#include "model/yield_rate.h"
 #include "percuss/vocabulary.h"
 
 struct ritz_store; /* ritz_store.h */
@@ -66,6 +67,8 @@ struct body {
                             half of theirs; 0: the damping is stated */
     bool yield_unstated; /* its material states neither a yield nor its absence: elastic by
                             assumption */
+    /* how the yield stress of its material grows with the rate of strain */
+    struct yield_rate yield_rate;
     double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */
     unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
     bool varied;                  /* by body_vary */

@@ -29,6 +29,13 @@ const struct limit limit_loss_factor = {
 const struct limit limit_share = {0.0, 1.0, true, true, "a share > 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_time = {
     1e-12, 1e12, false, false, "a finite time > 0 s (1e-12 to 1e12 s)", QUANTITY_TIME};
+/* Published exponents are 2 to 10, coefficients 0.001 to 0.2: neither passes as the other. */
+const struct limit limit_rate = {
+    1e-9, 1e12, false, false, "a finite rate > 0 1/s (1e-9 to 1e12 1/s)", QUANTITY_NUMBER};
+const struct limit limit_rate_exponent = {
+    1.0, 100.0, false, false, "a number, 1 to 100", QUANTITY_NUMBER};
+const struct limit limit_rate_coefficient = {
+    0.0, 1.0, true, true, "a number > 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_shear_factor = {
     1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)", QUANTITY_NUMBER};
 const struct limit limit_scale = {1e-6,           1e6, false, false, "a number > 0 (1e-6 to 1e6)",

@@ -42,6 +42,11 @@ extern const struct limit limit_dissipation;   /* s/m */
 extern const struct limit limit_law_deviation; /* of a law's force, over it */
 extern const struct limit limit_modes;         /* a whole number */
 
+/* Of a yield stress that grows with the rate of strain, 1/s, as model/yield_rate.h has them. */
+extern const struct limit limit_rate;
+extern const struct limit limit_rate_exponent;
+extern const struct limit limit_rate_coefficient;
+
 /* False for NAN and the infinities too. */
 bool limit_holds(const struct limit *limit, double value);
 

@@ -14,6 +14,7 @@
 #include "model/vector.h"
 #include "solve/outcome.h"
 #include "solve/radiation.h"
+#include "solve/rate.h"
 
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
  */
@@ -72,23 +73,41 @@ static void find_dents(struct problem *problem, size_t c)
     }
 }
 
-/* A table of just these materials. */
+/* The table of just these materials as they are stated, for the contact's curvature; NULL: there is
+ * none. */
+static const struct contact_curves *look_up(const struct problem *problem,
+                                            const struct contact_table_source *tables, size_t c)
+{
+    const double *curvature = problem->hertz[c].curvature;
+    struct contact_pair pair = {problem_material(problem, c, 0),
+                                problem_material(problem, c, 1),
+                                {curvature[0], curvature[1]}};
+    bool yields = closed_form_softer(pair.a, pair.b) >= 0;
+    if (asked_of(problem)->tables == CONTACT_TABLES_NONE || !yields || !tables)
+        return NULL;
+    return tables->find(tables->context, &pair);
+}
+
+/* A table of just these materials, at the stress at which the softer one yields now. Where both
+ * flow, and are raised by different factors, it is of other ones. */
 static enum percuss_status find_table(struct problem *problem,
-                                      const struct contact_table_source *tables, size_t c,
+                                      const struct contact_table_source *tables,
+                                      const struct contact_curves *curves, size_t c,
                                       struct fault *fault)
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct hertz_contact *hertz = &problem->hertz[c];
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
-    /* looked up, for the contact's curvature */
-    struct contact_pair pair = {problem_material(problem, c, 0),
-                                problem_material(problem, c, 1),
-                                {hertz->curvature[0], hertz->curvature[1]}};
-    const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
+    const double *raised = problem->contact_model.rates[c].raised;
     struct contact_law law;
+    if (curves && raised[0] != raised[1] && tables->family &&
+        contact_family_both_yield(problem_material(problem, c, 0), problem_material(problem, c, 1)))
+        curves = NULL;
     if (curves)
         law = contact_law_table_at(curves, 0.5 / hertz->curvature[0]);
+    if (curves && raised[choice->side] > 1.0)
+        law = contact_law_rescaled(&law, 1.0, raised[choice->side]);
     /* one that ends before it yields says less than the family */
     if (curves && (!tables->family || contact_law_table_range(&law) > choice->yield)) {
         choice->plastic = law;
@@ -188,13 +207,15 @@ static enum percuss_status find_law(struct problem *problem, const struct body_s
     const struct material *b = problem_material(problem, c, 1);
     const struct contact_law_operations *asked = asked_of(problem);
     /* the law itself, or its substitute */
+    const struct contact_curves *curves = look_up(problem, tables, c);
+    problem->contact_model.rates[c] = rate_raise(problem, c, problem_touching_speed(problem, c));
     choice->side = closed_form_softer(a, b);
     choice->yield = closed_form_yield(hertz, a, b);
     choice->plastic = asked->make(hertz, a, b);
     /* a table of these materials in its place */
     bool may = asked->tables != CONTACT_TABLES_NONE;
     if (may && choice->side >= 0) {
-        enum percuss_status status = find_table(problem, tables, c, fault);
+        enum percuss_status status = find_table(problem, tables, curves, c, fault);
         if (status)
             return status;
     }
@@ -304,7 +325,8 @@ enum percuss_status contact_model_choose(struct problem *problem, const struct b
     model->depth = arena_take(problem->arena, n, sizeof *model->depth);
     model->laws = arena_take(problem->arena, n, sizeof *model->laws);
     model->choices = arena_take(problem->arena, n, sizeof *model->choices);
-    if (!model->depth || !model->laws || !model->choices)
+    model->rates = arena_take(problem->arena, n, sizeof *model->rates);
+    if (!model->depth || !model->laws || !model->choices || !model->rates)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     /* the laws of every contact, and whether they are likely to be needed */
     bool dented = false;
@@ -480,6 +502,7 @@ void contact_model_explain(const struct problem *problem, const struct impact_ou
         explain_plastic(problem, outcome, text);
     else
         explain_elastic(problem, outcome, text);
+    rate_explain(problem, hardest_hit(problem, outcome), text);
 }
 
 double contact_patch_radius(const struct problem *problem, size_t c)

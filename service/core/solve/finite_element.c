@@ -140,6 +140,8 @@ static enum percuss_status complete_make(const struct problem *problem,
     for (int which = 0; !status && which < 2; which++) {
         const struct contact_side *side = &problem->sides[0][which];
         status = complete_body_make(problem->bodies[side->body], targets[which], fault);
+        /* at the rate of the impact */
+        targets[which]->material.yield = side->material.yield;
         if (!status)
             status = complete_check_side(problem, which, fault);
     }

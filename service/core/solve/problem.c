@@ -43,11 +43,16 @@ double problem_indentation(const struct problem *problem, size_t c, double speed
     return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
 }
 
-double problem_frequency(const struct problem *problem, size_t c)
+double problem_touching_speed(const struct problem *problem, size_t c)
 {
     const struct solve_contact *contact = &problem->request->contacts[c];
     const double rate = fmin(0.0, problem->gap_rate[c]);
-    double speed = sqrt(rate * rate - 2.0 * contact->gap_acceleration * fmax(0.0, contact->gap));
+    return sqrt(rate * rate - 2.0 * contact->gap_acceleration * fmax(0.0, contact->gap));
+}
+
+double problem_frequency(const struct problem *problem, size_t c)
+{
+    double speed = problem_touching_speed(problem, c);
     return M_PI * speed / (HERTZ_DURATION * problem_indentation(problem, c, speed));
 }
 

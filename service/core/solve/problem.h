@@ -40,6 +40,19 @@ struct contact_friction {
     } sides[2][2]; /* [tangent][a, b] */
 };
 
+/* The rate of strain at a contact, see rate.h. That which counts is known roughly: Tabor's strain
+ * is one of several in use, by a factor of two; and the metal flows ever more slowly as the
+ * indentation becomes largest, where the force that springs back is decided. Complete finite
+ * elements of mild steel with the rate of each point have the restitution of a mean rate five to
+ * nine times as low (docs/lab/contact-models.md). */
+struct contact_rate {
+    double mean;       /* of strain while the contact is loaded, 1/s; 0: no yield depends on it */
+    double raised[2];  /* yield stress of a and b over the stated one */
+    double slow, fast; /* that of the body that yields at the least and the largest likely rate,
+                          over the one in use */
+    double by_speed;   /* by how much its logarithm grows with that of all speeds */
+};
+
 /* The contacts' laws, see contact_model.h. */
 struct contact_model {
     bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
@@ -47,6 +60,7 @@ struct contact_model {
     double *depth;                  /* [contact]: of the dents under it, m */
     struct contact_law *laws;       /* [contact]: in use */
     struct contact_choice *choices; /* [contact] */
+    struct contact_rate *rates;     /* [contact] */
     const struct contact_table_remedy *remedy; /* of tables that are missing; NULL: none is known */
 };
 
@@ -116,8 +130,12 @@ double problem_approach(const struct problem *problem);
  * went into it. */
 double problem_indentation(const struct problem *problem, size_t contact, double speed);
 
-/* Angular frequency of an elastic contact of the rigid masses, rad/s: pi over its duration. A gap
- * that is open is closed with the acceleration of the gap. NAN: it does not touch. */
+/* Speed of the rigid approach of a contact when it touches, m/s: a gap that is open is closed with
+ * the acceleration of the gap. NAN: it does not touch. */
+double problem_touching_speed(const struct problem *problem, size_t contact);
+
+/* Angular frequency of an elastic contact of the rigid masses at that speed, rad/s: pi over its
+ * duration. NAN: it does not touch. */
 double problem_frequency(const struct problem *problem, size_t contact);
 
 /* Of the contacts' compression impulses, N s. */

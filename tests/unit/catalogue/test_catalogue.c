@@ -300,6 +300,42 @@ static void reads_ends_of_two_words(void **state)
     }
 }
 
+/* Cowper and Symonds's or Johnson and Cook's. */
+static void yield_grows_with_the_rate(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        parse_good("materials:\n"
+                   "  m: {young: 210e9, poisson: 0.3, density: 7800, yield: 250e6}\n"
+                   "  mild: {young: 210e9, poisson: 0.3, density: 7800, yield: 250e6, "
+                   "rate: {reference: 40.4, exponent: 5}}\n"
+                   "  alloy: {young: 210e9, poisson: 0.3, density: 7800, yield: 800e6, "
+                   "rate: {coefficient: 0.014, reference: 1}}\n"
+                   "bodies:\n"
+                   "  one: {shape: sphere, material: m, radius: 0.01}\n"
+                   "  two: {shape: sphere, material: mild, radius: 0.01}\n"
+                   "  three: {shape: sphere, material: alloy, radius: 0.01}\n");
+    assert_false(yield_rate_is_stated(&get(set, "one")->yield_rate));
+    is_read_as(yield_rate_factor(&get(set, "two")->yield_rate, 40.4), 2.0);
+    is_read_as(yield_rate_factor(&get(set, "three")->yield_rate, exp(5.0)), 1.07);
+    body_set_free(set);
+    /* each of its numbers makes another catalogue */
+    static const char *const rates[] = {
+        "", "rate: {reference: 1, exponent: 4}", "rate: {reference: 2, exponent: 4}",
+        "rate: {reference: 1, exponent: 5}", "rate: {reference: 1, coefficient: 0.01}"};
+    char revisions[COUNT(rates)][PERCUSS_ID_SIZE];
+    for (size_t i = 0; i < COUNT(rates); i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "materials: {m: {young: 7e10, poisson: 0.3, density: 2700, yield: 1e8, %s}}\n"
+                 "bodies: {r: {shape: sphere, material: m, radius: 0.01}}\n",
+                 rates[i]);
+        revision_of(text, revisions[i]);
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(revisions[i], revisions[k]);
+    }
+}
+
 static void changes_its_revision_with_the_content(void **state)
 {
     (void)state;
@@ -610,6 +646,7 @@ int main(void)
         cmocka_unit_test(loads_a_foreign_catalogue),
         cmocka_unit_test(losses_damp),
         cmocka_unit_test(series_are_read),
+        cmocka_unit_test(yield_grows_with_the_rate),
         cmocka_unit_test(yields_may_be_none),
         cmocka_unit_test(does_not_depend_on_the_locale),
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),

@@ -246,6 +246,44 @@ static void refuses_bad_ids(void **state)
 #define THREE   "{share: 0.1, time: 1}, {share: 0.1, time: 2}, {share: 0.1, time: 3}"
 #define NINE    THREE ", " THREE ", " THREE
 
+static void parse_bad_materials(const struct bad *bad, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "materials:\n  m: {%s}\nbodies:\n  w: {shape: half-space}\n",
+                 bad[i].text);
+        parse_bad(text, 2, bad[i].fragment);
+    }
+}
+
+static void refuses_bad_rates(void **state)
+{
+    (void)state;
+    static const struct bad bad[] = {
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: 40",
+         "materials.m.rate: 40: must be a mapping of reference, exponent, coefficient"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: {exponent: 5}",
+         "materials.m.rate.reference: missing: must be a finite rate"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: {reference: 40}",
+         "materials.m.rate: exponent or coefficient missing: a rate must have one of them"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, "
+         "rate: {reference: 40, exponent: 5, coefficient: 0.01}",
+         "materials.m.rate.coefficient: must be absent beside exponent"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: {reference: 0, exponent: 5}",
+         "materials.m.rate.reference: 0: must be a finite rate > 0 1/s"},
+        /* one for the other */
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: {reference: 1, exponent: 0.014}",
+         "materials.m.rate.exponent: 0.014: must be a number, 1 to 100"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, rate: {reference: 1, coefficient: 5}",
+         "materials.m.rate.coefficient: 5: must be a number > 0 and < 1"},
+        {"young: 1e9, poisson: 0.3, density: 1, rate: {reference: 40, exponent: 5}",
+         "materials.m.rate: must be absent without yield"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: none, rate: {reference: 40, exponent: 5}",
+         "materials.m.rate: must be absent without yield"},
+    };
+    parse_bad_materials(bad, COUNT(bad));
+}
+
 static void refuses_bad_materials(void **state)
 {
     (void)state;
@@ -268,7 +306,7 @@ static void refuses_bad_materials(void **state)
         {"young: 1e9, poisson: 0.3, density: 1, tangent: 1e6", "must be 0 or absent without yield"},
         {"young: 1e9, poisson: 0.3, density: 1, hardness: 3",
          "materials.m: hardness: unknown key; the keys of a material are young, poisson, density, "
-         "yield, tangent, loss_factor, relaxation"},
+         "yield, tangent, rate, loss_factor, relaxation"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: -0.1",
          "materials.m.loss_factor: -0.1: must be a ratio >= 0 and < 2"},
         {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 2", "loss_factor: 2: must be a ratio"},
@@ -296,12 +334,7 @@ static void refuses_bad_materials(void **state)
          "materials.m.relaxation: must be absent beside loss_factor"},
         {RELAXES "[" NINE "]", "relaxation: 9 terms: must be 1 to 8"},
     };
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        char text[512];
-        snprintf(text, sizeof text, "materials:\n  m: {%s}\nbodies:\n  w: {shape: half-space}\n",
-                 bad[i].text);
-        parse_bad(text, 2, bad[i].fragment);
-    }
+    parse_bad_materials(bad, COUNT(bad));
 }
 
 /* Hutchinson's circle has a pole at poisson -0.793. */
@@ -406,6 +439,7 @@ int main(void)
         cmocka_unit_test(refuses_unknown_words),
         cmocka_unit_test(refuses_missing_and_double_keys),
         cmocka_unit_test(refuses_bad_ids),
+        cmocka_unit_test(refuses_bad_rates),
         cmocka_unit_test(refuses_bad_materials),
         cmocka_unit_test(refuses_a_shear_rule_outside_its_range),
         cmocka_unit_test(refuses_bad_tops),

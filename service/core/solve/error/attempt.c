@@ -9,6 +9,7 @@
 #include "impact/coupling.h"
 #include "impact/impact_scale.h"
 #include "solve/error/calibration.h"
+#include "solve/rate.h"
 
 /* Sub-impacts of a contact from which on e is chaotic often enough (a fifth of the random heavy
  * balls on light beams from 30 on) that two solutions may agree within the tolerance and both be
@@ -181,7 +182,9 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
     for (size_t r = 0; r < rows; r++)
         scaled[r] = factor * scene.gap_rate[r];
     scene.gap_rate = scaled;
-    enum percuss_status status = attempt_run(context, attempt, &scene);
+    enum percuss_status status = rate_follow(context->problem, factor, &scene);
+    if (!status)
+        status = attempt_run(context, attempt, &scene);
     for (size_t c = 0; !status && c < n; c++)
         attempt->outcome.tracks[c].impulse /= factor;
     return status;

@@ -185,18 +185,19 @@ static double yield_of(const struct problem *problem, size_t contact,
                        const struct model_impact *impact)
 {
     const struct contact_history *history = &impact->history;
-    double parts[2];
+    double parts[LAW_ERROR_COUNT];
     if (!(history->max_indentation > 0.0))
         return 0.0;
     law_error_parts(problem, contact, history, parts);
     /* a region of finite elements in every step has the shape of the table's, not its error */
     enum percuss_contact_model asked = problem->request->options.contact_model;
     if (contact_law_asked(asked)->method == CONTACT_CONCURRENT)
-        parts[1] = 0.0;
+        parts[LAW_ERROR_LAW] = 0.0;
     double back = history->max_indentation - history->dent;
     double stored = 0.625 * compliance_of(problem, contact, false, impact->duration) *
                     history->max_force / back;
-    return MEAN_TO_MOST * parts[0] + parts[1] + stored;
+    return MEAN_TO_MOST * parts[LAW_ERROR_SIZE] + parts[LAW_ERROR_LAW] + parts[LAW_ERROR_RATE] +
+           stored;
 }
 
 double model_impact_stiffness(const struct model_impact *impact)

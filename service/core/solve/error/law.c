@@ -22,9 +22,21 @@
 static double restitution_from(const struct contact_law *law, double depth, double work)
 {
     struct contact_law used = *law;
+    if (!(depth > law->operations->curve->yield(law)))
+        return 1.0;
     used.history = (struct contact_history){0};
     contact_law_yield(&used, depth);
     return sqrt(used.operations->stored(&used, contact_law_limit(&used)) / work);
+}
+
+/* Restitution of the contact alone with so many times the yield stress, over that of the law from a
+ * depth: the same work is taken up. */
+static double rebound_with(const struct contact_law *law, double depth, double yield)
+{
+    struct contact_law other = contact_law_rescaled(law, 1.0, yield);
+    double work = law->operations->curve->work(law, depth);
+    return restitution_from(&other, contact_law_depth(&other, work), work) /
+           restitution_from(law, depth, work);
 }
 
 /* How much less, or more, of the same work the contact gives back by the family. */
@@ -141,7 +153,7 @@ static double by_table(const struct contact_choice *choice, double depth)
 }
 
 void law_error_parts(const struct problem *problem, size_t contact,
-                     const struct contact_history *history, double parts[2])
+                     const struct contact_history *history, double parts[LAW_ERROR_COUNT])
 {
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
     /* size and shape */
@@ -149,25 +161,34 @@ void law_error_parts(const struct problem *problem, size_t contact,
                                    problem_material(problem, contact, 1)};
     const struct material *soft = m[choice->side];
     double hardening = soft->tangent / soft->young;
-    parts[0] = by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
-               by_roundness(problem, contact, history->contact_radius) +
-               by_ellipse(&problem->hertz[contact]);
+    parts[LAW_ERROR_SIZE] =
+        by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
+        by_roundness(problem, contact, history->contact_radius) +
+        by_ellipse(&problem->hertz[contact]);
+    /* the mean rate of strain */
+    const struct contact_rate *rate = &problem->contact_model.rates[contact];
+    double depth = history->max_indentation;
+    parts[LAW_ERROR_RATE] = 0.0;
+    if (rate->mean > 0.0)
+        parts[LAW_ERROR_RATE] = fmax(fabs(rebound_with(&choice->plastic, depth, rate->slow) - 1.0),
+                                     fabs(rebound_with(&choice->plastic, depth, rate->fast) - 1.0));
     /* the law itself, against its reference */
     if (choice->tabulated)
-        parts[1] = by_table(choice, history->max_indentation);
+        parts[LAW_ERROR_LAW] = by_table(choice, history->max_indentation);
     else if (!choice->compared.operations)
-        parts[1] = LAW_FAMILY + by_closed_form(history->max_indentation / choice->yield, hardening,
-                                               compliance_share(m, choice->side));
+        parts[LAW_ERROR_LAW] =
+            LAW_FAMILY + by_closed_form(history->max_indentation / choice->yield, hardening,
+                                        compliance_share(m, choice->side));
     else
-        parts[1] = LAW_FAMILY +
-                   against_family(&choice->plastic, &choice->compared, history->max_indentation);
+        parts[LAW_ERROR_LAW] = LAW_FAMILY + against_family(&choice->plastic, &choice->compared,
+                                                           history->max_indentation);
 }
 
 /* Of a contact that yielded; nothing of one that did not. */
 static void find_parts(const struct problem *problem, const struct impact_outcome *outcome,
-                       size_t contact, double parts[2])
+                       size_t contact, double parts[LAW_ERROR_COUNT])
 {
-    parts[0] = parts[1] = 0.0;
+    memset(parts, 0, LAW_ERROR_COUNT * sizeof *parts);
     if (contact_model_yielded(problem, outcome, contact))
         law_error_parts(problem, contact, &outcome->laws[contact].history, parts);
 }
@@ -175,18 +196,20 @@ static void find_parts(const struct problem *problem, const struct impact_outcom
 double law_error(const struct problem *problem, const struct impact_outcome *outcome,
                  size_t contact)
 {
-    double parts[2];
+    double parts[LAW_ERROR_COUNT];
     find_parts(problem, outcome, contact, parts);
-    return parts[0] + parts[1];
+    return parts[LAW_ERROR_SIZE] + parts[LAW_ERROR_LAW] + parts[LAW_ERROR_RATE];
 }
 
 const char *law_error_reason(const struct problem *problem, const struct impact_outcome *outcome,
                              size_t contact)
 {
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
-    double parts[2];
+    double parts[LAW_ERROR_COUNT];
     find_parts(problem, outcome, contact, parts);
-    if (parts[0] > parts[1])
+    if (parts[LAW_ERROR_RATE] > fmax(parts[LAW_ERROR_SIZE], parts[LAW_ERROR_LAW]))
+        return "the rate of strain, and with it the yield stress, is known roughly";
+    if (parts[LAW_ERROR_SIZE] > parts[LAW_ERROR_LAW])
         return "the dent is too large for small strains";
     if (!choice->tabulated)
         return choice->compared.operations ? "the closed form against tables of finite elements"
@@ -199,11 +222,7 @@ double law_error_yield(const struct contact_law *law, double depth, double share
 {
     const double step = 0.05;
     const double most = 3.0;
-    struct contact_law harder = contact_law_rescaled(law, 1.0, 1.0 + step);
-    double work = law->operations->curve->work(law, depth);
-    double e = restitution_from(law, depth, work);
-    double more = restitution_from(&harder, contact_law_depth(&harder, work), work);
-    double slope = log(more / e) / log1p(step);
+    double slope = log(rebound_with(law, depth, 1.0 + step)) / log1p(step);
     return slope > 0.0 ? fmin(exp(share / slope), most) : most;
 }
 

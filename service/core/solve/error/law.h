@@ -34,10 +34,11 @@
 double law_error(const struct problem *problem, const struct impact_outcome *outcome,
                  size_t contact);
 
-/* The same of one that yielded, by its history: by size and shape of the contact, and by the
- * law itself. */
+/* The same of one that yielded, by its history: by size and shape of the contact, by the law
+ * itself, and by the rate of strain of its yield stress. */
+enum law_error_part { LAW_ERROR_SIZE, LAW_ERROR_LAW, LAW_ERROR_RATE, LAW_ERROR_COUNT };
 void law_error_parts(const struct problem *problem, size_t contact,
-                     const struct contact_history *history, double parts[2]);
+                     const struct contact_history *history, double parts[LAW_ERROR_COUNT]);
 
 /* Factor of the yield stress that changes the rebound of a contact alone from a depth by
  * the share `share` of its restitution; at most 3. */
