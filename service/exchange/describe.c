@@ -42,7 +42,7 @@ void describe_body(const struct body *body, percuss_v1_Body *wire,
     if (body->loss_factor > 0.0)
         describe_add(&description, "loss factor %g", body->loss_factor);
     if (body->relaxation.count > 0)
-        describe_add(&description, "modulus relaxes to %.3g of young in %zu terms",
+        describe_add(&description, "modulus relaxes to %.3g of young, by %zu of its times",
                      relaxation_storage(&body->relaxation, 0.0), body->relaxation.count);
     if (yield_rate_is_stated(&body->yield_rate))
         describe_add(&description, "yield by rate of strain, %g times at 1000 1/s",

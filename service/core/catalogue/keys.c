@@ -379,7 +379,9 @@ static const struct key law_keys[] = {
                     "and sizes do not change the law")},
     {"stiffness", KEY_NUMBER, &limit_law_stiffness, false, KEY_OF(own_law, stiffness),
      .instead = {"points"},
-     KEY_SAYS("points are stated", "force at an indentation of 1 m, F = stiffness d^exponent")},
+     KEY_SAYS("points are stated",
+              "force at an indentation of 1 m, F = stiffness d^exponent, a plain "
+              "number of N/m^exponent")},
     {"exponent", KEY_NUMBER, &limit_law_exponent, false, KEY_OF(own_law, exponent),
      KEY_SAYS("1.5, Hertz's", "exponent of the indentation in that force")},
     {"hysteresis", KEY_NUMBER, &limit_hysteresis, false, KEY_OF(own_law, hysteresis),
@@ -391,13 +393,15 @@ static const struct key law_keys[] = {
     {"points", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
      KEY_SAYS("stiffness is stated",
               "file of two columns, indentation in m and force in N, from 0 to the largest; an "
-              "indentation beyond it is answered with a warning")},
+              "indentation beyond it is answered with a warning. The path is from the "
+              "catalogue's own folder")},
     {"unloading", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
      KEY_SAYS("the way of loading",
               "file like that of the way back, from the same largest indentation to force 0; from "
               "other ones it is in proportion")},
     {"deviation", KEY_NUMBER, &limit_law_deviation, false, KEY_OF(own_law, deviation),
-     KEY_SAYS("0.05", "standard deviation of the force, over the force")},
+     KEY_SAYS("0.05",
+              "standard deviation of the force, over the force, and of the work that is lost")},
 };
 const struct key_table keys_law = {"law", TABLE(law_keys)};
 static const struct key rate_keys[] = {

@@ -4,21 +4,27 @@
 #include "catalogue/law_entry.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "catalogue/shipped.h"
+#include "numeric/spline.h"
 
 /* Rows of a curve. */
-enum { LEAST_ROWS = 3, MOST_ROWS = 10000, LINE = 256 };
+enum { LEAST_ROWS = 3, MOST_ROWS = 10000, MOST_BYTES = 1 << 20 };
 
 /* The two curves meet: as equal as five printed digits are. */
 static const double SAME_POINT = 1e-5;
-/* Of a force of loading between two points: digits that were printed. */
-static const double ROUNDING = 1e-6;
+/* Places of an unloading curve that are looked at. */
+enum { SHARES = 64 };
+/* By which unloading may exceed loading, of the largest force: digits that were printed, and the
+ * ripple of splines where both are the same curve. */
+static const double MADE = 1e-4;
 
 /* A file that is being read. */
 struct rows {
@@ -34,50 +40,104 @@ static enum percuss_status refuse_row(const struct rows *rows, size_t row, const
                      rows->line[row], rows->curve.indentation[row], rows->curve.force[row], must);
 }
 
+/* A decimal number, to which *text moves on. */
+static bool read_number(const char **text, double *value)
+{
+    const char *end = units_number_end(*text);
+    if (end == *text)
+        return false;
+    *value = strtod(*text, NULL);
+    *text = end;
+    return isfinite(*value);
+}
+
 /* Two numbers and nothing else, with a comma, a semicolon or blanks between them. */
 static bool read_row(const char *text, double *indentation, double *force)
 {
-    char *end;
-    *indentation = strtod(text, &end);
-    if (end == text)
+    text += strspn(text, " \t");
+    if (!read_number(&text, indentation))
         return false;
-    const char *next = end + strspn(end, " \t");
-    next += *next == ',' || *next == ';';
-    *force = strtod(next, &end);
-    return next > text && end > next && end[strspn(end, " \t\r\n")] == '\0' &&
-           isfinite(*indentation) && isfinite(*force);
+    size_t between = strspn(text, " \t");
+    between += text[between] == ',' || text[between] == ';';
+    between += strspn(text + between, " \t");
+    text += between;
+    return between > 0 && read_number(&text, force) && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Rows as they stand; the first line may be names of columns. */
+/* Names of columns: what begins like no number. Other units than m and N, or the force first, are
+ * refused. */
+static bool are_names(const char *text)
+{
+    return !strchr("+-.0123456789", text[strspn(text, " \t\"")]);
+}
+
+static bool are_other_columns(const char *text)
+{
+    static const char *const other[] = {"mm", "um", "\xc2\xb5m", "\xce\xbcm",
+                                        "nm", "cm", "kN",        "mN"};
+    size_t first = strcspn(text, ",;\t\r\n");
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (strstr(text, other[i]))
+            return true;
+    return memmem(text, first, "orce", 4) || memmem(text, first, "ORCE", 4);
+}
+
+static enum percuss_status refuse_line(const struct rows *rows, size_t line, const char *must)
+{
+    return fault_set(rows->fault, PERCUSS_BAD_REQUEST, "%.300s:%zu: %s", rows->path, line, must);
+}
+
+/* One line; *begun: it is not the first with anything in it. */
+static enum percuss_status read_line(struct rows *rows, const char *text, size_t line, bool *begun)
+{
+    struct own_curve *curve = &rows->curve;
+    double indentation, force;
+    if (text[strspn(text, " \t\r\n")] == '\0' || text[strspn(text, " \t")] == '#')
+        return PERCUSS_OK;
+    bool first = !*begun;
+    *begun = true;
+    if (first && are_names(text))
+        return are_other_columns(text)
+                   ? refuse_line(rows, line, "must name an indentation in m, then a force in N")
+                   : PERCUSS_OK;
+    if (!read_row(text, &indentation, &force))
+        return refuse_line(rows, line,
+                           "must be two numbers with decimal points, an indentation in m and a "
+                           "force in N, with a comma, a semicolon or a blank between them");
+    if (curve->count == MOST_ROWS) {
+        char must[64];
+        snprintf(must, sizeof must, "must have at most %d points", MOST_ROWS);
+        return refuse_line(rows, line, must);
+    }
+    curve->indentation[curve->count] = indentation;
+    curve->force[curve->count] = force;
+    rows->line[curve->count++] = line;
+    return PERCUSS_OK;
+}
+
+/* Rows as they stand. */
 static enum percuss_status read_rows(FILE *file, struct rows *rows)
 {
-    char text[LINE];
-    struct own_curve *curve = &rows->curve;
-    bool named = false;
-    for (size_t line = 1; fgets(text, sizeof text, file); line++) {
-        double indentation, force;
-        size_t blank = strspn(text, " \t\r\n");
-        if (text[blank] == '\0' || text[blank] == '#')
-            continue;
-        if (!read_row(text, &indentation, &force)) {
-            if (!named && curve->count == 0 && strlen(text) + 1 < sizeof text) {
-                named = true;
-                continue;
-            }
-            return fault_set(rows->fault, PERCUSS_BAD_REQUEST,
-                             "%.300s:%zu: must be two finite numbers, an indentation in m and a "
-                             "force in N",
-                             rows->path, line);
-        }
-        if (curve->count == MOST_ROWS)
-            return fault_set(rows->fault, PERCUSS_BAD_REQUEST,
-                             "%.300s:%zu: must have at most %d points", rows->path, line,
-                             MOST_ROWS);
-        curve->indentation[curve->count] = indentation;
-        curve->force[curve->count] = force;
-        rows->line[curve->count++] = line;
+    static const char BOM[] = "\xef\xbb\xbf";
+    char *text = NULL;
+    size_t room = 0;
+    bool begun = false;
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t line = 1; !status; line++) {
+        ssize_t length = getline(&text, &room, file);
+        if (length < 0)
+            break;
+        if (strlen(text) < (size_t)length)
+            status = refuse_line(rows, line, "must be text: it has a byte 0");
+        else
+            status =
+                read_line(rows, text + (line == 1 && !strncmp(text, BOM, 3) ? 3 : 0), line, &begun);
     }
-    return PERCUSS_OK;
+    free(text);
+    if (!status && ferror(file))
+        status =
+            fault_set(rows->fault, PERCUSS_BAD_REQUEST, "%.300s: %s", rows->path, strerror(errno));
+    return status;
 }
 
 /* A test of unloading is mostly written as it happened, from the largest indentation on. */
@@ -123,11 +183,18 @@ static enum percuss_status check_rows(const struct rows *rows)
 static enum percuss_status read_file(struct rows *rows)
 {
     struct stat about;
-    FILE *file = fopen(rows->path, "re");
-    if (!file || fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode)) {
-        const char *why = file ? "not a regular file" : strerror(errno);
-        if (file)
-            fclose(file);
+    /* a pipe must not be waited for */
+    int descriptor = open(rows->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const char *why = descriptor < 0 || fstat(descriptor, &about) != 0 ? strerror(errno)
+                      : !S_ISREG(about.st_mode)                        ? "not a regular file"
+                      : about.st_size > MOST_BYTES                     ? "more than 1 MB"
+                                                                       : NULL;
+    FILE *file = why ? NULL : fdopen(descriptor, "r");
+    if (!file) {
+        if (!why)
+            why = strerror(errno);
+        if (descriptor >= 0)
+            close(descriptor);
         return fault_set(rows->fault, PERCUSS_BAD_REQUEST, "%.300s: %s", rows->path, why);
     }
     rows->curve.indentation = malloc(2 * MOST_ROWS * sizeof *rows->curve.indentation);
@@ -145,17 +212,54 @@ static enum percuss_status read_file(struct rows *rows)
     return status ? status : check_rows(rows);
 }
 
-/* The force of loading at an indentation within its points, linear between them. */
-static double loading_at(const struct own_curve *points, double d)
+/* A spline of F^(2/3) over the indentation, as the law has it (contact/law_own.c); its values and
+ * slopes come from *block, for free(). False: out of memory. */
+static bool spline_of(const struct own_curve *curve, double **block, struct spline *spline)
 {
-    size_t i = 1;
-    while (i + 1 < points->count && points->indentation[i] < d)
-        i++;
-    const double *x = points->indentation + i, *f = points->force + i;
-    return f[-1] + (f[0] - f[-1]) * (d - x[-1]) / (x[0] - x[-1]);
+    size_t n = curve->count;
+    *block = malloc(4 * n * sizeof **block);
+    if (!*block)
+        return false;
+    *spline = (struct spline){n, curve->indentation, *block, *block + n};
+    for (size_t i = 0; i < n; i++)
+        spline->value[i] = cbrt(curve->force[i] * curve->force[i]);
+    spline_set_slopes(spline, *block + 2 * n);
+    return true;
 }
 
-/* Unloading begins where loading ended, and bears no more force anywhere: no energy is made. */
+static double force_at(const struct spline *spline, double d)
+{
+    double slope, value = spline_at(spline, d, &slope);
+    return value * sqrt(value);
+}
+
+/* From no largest indentation does unloading, in proportion to that of the file, bear more force
+ * than loading does there: no energy is made. */
+static enum percuss_status check_energy(const struct rows *rows, const struct spline *loading,
+                                        const struct spline *back)
+{
+    size_t n = loading->count - 1;
+    double last = loading->place[n], from = back->place[0] / last;
+    double most = force_at(back, back->place[back->count - 1]);
+    for (size_t i = 2; i <= 2 * n; i++) {
+        /* at the points, and between them */
+        double depth = 0.5 * (loading->place[i / 2] + loading->place[(i + 1) / 2]);
+        double force = force_at(loading, depth);
+        for (int k = 1; k < SHARES; k++) {
+            double part = from + (1.0 - from) * k / SHARES;
+            double bears = force * force_at(back, part * last) / most;
+            double held = force_at(loading, part * depth);
+            if (bears > held + MADE * force)
+                return fault_set(rows->fault, PERCUSS_BAD_REQUEST,
+                                 "%.300s: must never bear more than loading: from %g m it would, "
+                                 "in proportion, %g N at %g m for %g N, and make energy",
+                                 rows->path, depth, bears, part * depth, held);
+        }
+    }
+    return PERCUSS_OK;
+}
+
+/* Unloading begins where loading ended. */
 static enum percuss_status check_unloading(const struct rows *rows, const struct own_curve *points)
 {
     const struct own_curve *back = &rows->curve;
@@ -168,17 +272,15 @@ static enum percuss_status check_unloading(const struct rows *rows, const struct
                  points->indentation[last], points->force[last]);
         return refuse_row(rows, top, must);
     }
-    for (size_t i = 0; i < top; i++) {
-        double loading = loading_at(points, back->indentation[i]);
-        if (back->force[i] > loading * (1.0 + ROUNDING)) {
-            char must[128];
-            snprintf(must, sizeof must,
-                     "must not exceed the force of loading there, %g N: it would make energy",
-                     loading);
-            return refuse_row(rows, i, must);
-        }
-    }
-    return PERCUSS_OK;
+    struct spline loading, unloading;
+    double *blocks[2] = {NULL, NULL};
+    enum percuss_status status =
+        spline_of(points, &blocks[0], &loading) && spline_of(back, &blocks[1], &unloading)
+            ? check_energy(rows, &loading, &unloading)
+            : fault_set(rows->fault, PERCUSS_INTERNAL, "%.300s: out of memory", rows->path);
+    free(blocks[0]);
+    free(blocks[1]);
+    return status;
 }
 
 /* Reads the file that a key names, if it stands there. */

@@ -45,13 +45,13 @@ const struct limit limit_friction = {
 const struct limit limit_deviation = {
     0.0, 10.0, false, false, "a standard deviation >= 0 and <= 10", QUANTITY_NUMBER};
 const struct limit limit_law_stiffness = {
-    0.0, 1e30, true, false, "a number > 0 (N/m^exponent)", QUANTITY_NUMBER};
+    1e-3, 1e30, false, false, "a plain number of N/m^exponent (1e-3 to 1e30)", QUANTITY_NUMBER};
 const struct limit limit_law_exponent = {
     1.0, 4.0, false, false, "a number >= 1 and <= 4", QUANTITY_NUMBER};
 const struct limit limit_hysteresis = {
     0.0, 1.0, false, true, "a share >= 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_dissipation = {
-    0.0, 1e6, false, false, "a number >= 0 (s/m)", QUANTITY_NUMBER};
+    0.0, 1e6, false, false, "a number >= 0 s/m (to 1e6)", QUANTITY_NUMBER};
 const struct limit limit_law_deviation = {
     0.0, 1.0, false, false, "a share >= 0 and <= 1", QUANTITY_NUMBER};
 const struct limit limit_modes = {1.0,

@@ -176,7 +176,7 @@ static enum percuss_status find_own(struct problem *problem, const struct body_s
     const char *why = contact_law_refuses(&law, problem->contact_count, problem->friction_count);
     if (why)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "contacts[%zu]: the law %s has a dissipation: %s (another "
+                         "contacts[%zu]: the law %s, which has a dissipation: %s (another "
                          "options.contact_model leaves the law out)",
                          c, own->name, why);
     /* friction's cells are the growth of a contact from a point on */

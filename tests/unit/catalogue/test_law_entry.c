@@ -4,6 +4,7 @@
 /* Mirrors service/core/catalogue/law_entry.c: laws of a catalogue with their files; what is refused
  * is told with its line. */
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "model/material.h"
@@ -95,7 +96,8 @@ static void powers(void **state)
 static void numbers_are_checked(void **state)
 {
     (void)state;
-    refused("stiffness: -1", "laws.pad.stiffness: -1: must be a number > 0");
+    refused("stiffness: -1",
+            "laws.pad.stiffness: -1: must be a plain number of N/m^exponent (1e-3 to");
     refused("stiffness: 1, exponent: 0.5", "laws.pad.exponent: 0.5: must be a number >= 1");
     refused("stiffness: 1, hysteresis: 1", "laws.pad.hysteresis: 1: must be a share >= 0 and < 1");
     refused("stiffness: 1, dissipation: -1", "laws.pad.dissipation: -1: must be a number >= 0");
@@ -149,9 +151,17 @@ static void lines_of_files(void **state)
         {"0,1\n1e-3,10\n2e-3,20\n", "points.csv:1: 0 m, 1 N: must have no force"},
         {"-1e-3,0\n1e-3,10\n2e-3,20\n", "points.csv:1: -0.001 m, 0 N: must have an indentation of"},
         {"1e-3,0\n2e-3,10\n3e-3,20\n", "points.csv:1: 0.001 m, 0 N: must be at 0 m: the touch"},
-        {"d,F\n0,0\nx,1\n", "points.csv:3: must be two finite numbers"},
-        {"0,0\n1e-3,nan\n", "points.csv:2: must be two finite numbers"},
-        {"0,0,0\n1,1,1\n", "points.csv:2: must be two finite numbers"},
+        {"d,F\n0,0\nx,1\n", "points.csv:3: must be two numbers with decimal points"},
+        {"0,0\n1e-3,nan\n", "points.csv:2: must be two numbers with decimal points"},
+        {"mm,N\n0,0\n1,1\n2,2\n", "points.csv:1: must name an indentation in m, then a force in N"},
+        {"force/N,indentation/m\n0,0\n1,1\n2,2\n", "points.csv:1: must name an indentation in m"},
+        {"\xef\xbb\xbf"
+         "0,0\r\n1e-3,10\r\n",
+         "points.csv: 2 points: must have"},
+        {"0,00001;10,5\n1,1\n", "points.csv:1: must be two numbers with decimal points"},
+        {"0,0\n1e-5.5\n2e-5,1\n", "points.csv:2: must be two numbers with decimal points"},
+        {"0,0\n0x1p-3,1\n2,2\n", "points.csv:2: must be two numbers with decimal points"},
+        {"0,0,0\n1,1,1\n", "points.csv:1: must be two numbers with decimal points"},
     };
     for (size_t i = 0; i < COUNT(bad); i++) {
         write_file("points.csv", bad[i].text);
@@ -165,7 +175,21 @@ static void lines_of_files(void **state)
             "back.csv:3: 0.002 m, 41 N: must be the last one of points, 0.002 m and 40 N");
     write_file("back.csv", "0,0\n1e-3,12\n2e-3,40\n");
     refused("points: points.csv, unloading: back.csv",
-            "back.csv:2: 0.001 m, 12 N: must not exceed the force of loading there, 10 N");
+            "back.csv: must never bear more than loading: from ");
+    /* below loading from the last point, above it from others, where loading bends the other way */
+    write_file("points.csv", "0,0\n1e-4,5\n2e-4,30\n3e-4,80\n4e-4,110\n6e-4,130\n1e-3,150\n");
+    write_file("back.csv", "0,0\n1e-4,4\n2e-4,25\n3e-4,70\n4e-4,100\n6e-4,120\n1e-3,150\n");
+    refused("points: points.csv, unloading: back.csv", ", and make energy");
+    /* a pipe is not waited for; a long comment is one line */
+    unlink(path_of("points.csv"));
+    assert_int_equal(mkfifo(path_of("points.csv"), 0600), 0);
+    refused("points: points.csv", "points.csv: not a regular file");
+    unlink(path_of("points.csv"));
+    char comment[400];
+    memset(comment, '#', sizeof comment);
+    strcpy(comment + 300, "\n0,0\n1,1\n2,2,\n");
+    write_file("points.csv", comment);
+    refused("points: points.csv", "points.csv:4: must be two numbers");
 }
 
 int main(void)

@@ -203,7 +203,7 @@ static void asked_for(void **state)
     struct solve_request request = balls(1.0);
     request.contacts[0].friction = 0.2;
     request.bodies[0].velocity[0] = 1.0;
-    refused(lab, &request, "contacts[0]: the law pad has a dissipation: it has no friction");
+    refused(lab, &request, "contacts[0]: the law pad, which has a dissipation: it has no friction");
     law.dissipation = 0.0;
     refused(lab, &request, "contacts[0]: the law pad has exponent 1: with friction");
     /* another model takes no law of the catalogue; that law needs one */

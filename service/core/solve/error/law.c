@@ -429,8 +429,20 @@ static bool has_loss(const struct problem *problem, size_t contact)
     return problem->contact_model.laws[contact].operations->remembers;
 }
 
+/* The work that a law of the catalogue does not give back is as well known as its force: of e^2 =
+ * 1 - loss, deviation (1 - e^2)/(2 e). */
+static double own_loss_deviation(const struct own_law *own, double rebound)
+{
+    double e = fmin(fabs(rebound), 1.0), lost = own->deviation * (1.0 - e * e);
+    bool loses = own->hysteresis > 0.0 || own->dissipation > 0.0 || own->unloading.count > 0;
+    return loses ? fmin(0.5 * lost / e, sqrt(lost)) : 0.0;
+}
+
 double loss_deviation(const struct problem *problem, size_t contact, double rebound)
 {
+    const struct own_law *own = problem->contact_model.choices[contact].own;
+    if (own)
+        return own_loss_deviation(own, rebound);
     if (!has_loss(problem, contact))
         return 0.0;
     double loss_factor = problem->contact_model.choices[contact].loss->loss_factor;
