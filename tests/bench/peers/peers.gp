@@ -1,0 +1,37 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Seconds against error of peers.py, a panel for each scene, a curve for each program.
+# gnuplot -e "folder='...'; output_name='...'" peers.gp; folder holds <scene>-<program>.dat
+
+set terminal svg size 900,420 font "DejaVu Sans,13" background rgb "white"
+set output output_name . ".svg"
+set multiplot layout 1,2
+set logscale xy
+set xrange [1:1e-9] reverse
+set xtics 1e-9, 100, 1
+set yrange [5e-5:40]
+set format x "10^{%T}"
+set format y "10^{%T}"
+set xlabel "error in the restitution"
+set ylabel "seconds of one core"
+set grid xtics ytics linecolor rgb "#dddddd" linewidth 0.6 linetype 1
+set border 3 linecolor rgb "#444444"
+set tics nomirror
+set key top left reverse Left samplen 2 spacing 0.9 font ",11"
+
+scenes = "rod beam"
+titles = '"A sphere on a rod, 0.3 m/s" "A sphere on a beam, 0.2 m/s"'
+programs = "percuss scipy exudyn mujoco"
+names = '"percuss" "scipy, modal equations" "Exudyn, chain of masses" "MuJoCo, percuss export"'
+colours = "#c0392b #1f5fa8 #2e8b57 #d68910"
+points = "7 5 9 13"
+file(scene, program) = folder . "/" . word(scenes, scene) . "-" . word(programs, program) . ".dat"
+shown(scene, program) = scene == 1 || program != 3 ? file(scene, program) : "/dev/null" # no beam is set up in Exudyn
+set style line 1 linewidth 2 pointsize 0.6
+do for [s = 1:2] {
+    set title word(titles, s)
+    plot for [i = 1:4] shown(s, i) using 1:2 with linespoints linestyle 1 linecolor rgb word(colours, i) \
+        pointtype (word(points, i) + 0) title (s == 1 || i != 3 ? word(names, i) : "")
+}
+unset multiplot
