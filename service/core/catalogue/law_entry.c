@@ -3,6 +3,7 @@
 
 #include "catalogue/law_entry.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -13,7 +14,6 @@
 #include <unistd.h>
 
 #include "catalogue/shipped.h"
-#include "numeric/spline.h"
 
 /* Rows of a curve. */
 enum { LEAST_ROWS = 3, MOST_ROWS = 10000, MOST_BYTES = 1 << 20 };
@@ -71,13 +71,23 @@ static bool are_names(const char *text)
     return !strchr("+-.0123456789", text[strspn(text, " \t\"")]);
 }
 
+/* Whether a word stands there alone: "um" does not in "column". */
+static bool has_word(const char *text, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        if ((at == text || !isalpha((unsigned char)at[-1])) && !isalpha((unsigned char)at[length]))
+            return true;
+    return false;
+}
+
 static bool are_other_columns(const char *text)
 {
     static const char *const other[] = {"mm", "um", "\xc2\xb5m", "\xce\xbcm",
                                         "nm", "cm", "kN",        "mN"};
     size_t first = strcspn(text, ",;\t\r\n");
     for (size_t i = 0; i < sizeof other / sizeof *other; i++)
-        if (strstr(text, other[i]))
+        if (has_word(text, other[i]))
             return true;
     return memmem(text, first, "orce", 4) || memmem(text, first, "ORCE", 4);
 }
@@ -212,27 +222,6 @@ static enum percuss_status read_file(struct rows *rows)
     return status ? status : check_rows(rows);
 }
 
-/* A spline of F^(2/3) over the indentation, as the law has it (contact/law_own.c); its values and
- * slopes come from *block, for free(). False: out of memory. */
-static bool spline_of(const struct own_curve *curve, double **block, struct spline *spline)
-{
-    size_t n = curve->count;
-    *block = malloc(4 * n * sizeof **block);
-    if (!*block)
-        return false;
-    *spline = (struct spline){n, curve->indentation, *block, *block + n};
-    for (size_t i = 0; i < n; i++)
-        spline->value[i] = cbrt(curve->force[i] * curve->force[i]);
-    spline_set_slopes(spline, *block + 2 * n);
-    return true;
-}
-
-static double force_at(const struct spline *spline, double d)
-{
-    double slope, value = spline_at(spline, d, &slope);
-    return value * sqrt(value);
-}
-
 /* From no largest indentation does unloading, in proportion to that of the file, bear more force
  * than loading does there: no energy is made. */
 static enum percuss_status check_energy(const struct rows *rows, const struct spline *loading,
@@ -240,15 +229,15 @@ static enum percuss_status check_energy(const struct rows *rows, const struct sp
 {
     size_t n = loading->count - 1;
     double last = loading->place[n], from = back->place[0] / last;
-    double most = force_at(back, back->place[back->count - 1]);
+    double most = own_curve_force(back, back->place[back->count - 1]);
     for (size_t i = 2; i <= 2 * n; i++) {
         /* at the points, and between them */
         double depth = 0.5 * (loading->place[i / 2] + loading->place[(i + 1) / 2]);
-        double force = force_at(loading, depth);
+        double force = own_curve_force(loading, depth);
         for (int k = 1; k < SHARES; k++) {
             double part = from + (1.0 - from) * k / SHARES;
-            double bears = force * force_at(back, part * last) / most;
-            double held = force_at(loading, part * depth);
+            double bears = force * own_curve_force(back, part * last) / most;
+            double held = own_curve_force(loading, part * depth);
             if (bears > held + MADE * force)
                 return fault_set(rows->fault, PERCUSS_BAD_REQUEST,
                                  "%.300s: must never bear more than loading: from %g m it would, "
@@ -275,7 +264,8 @@ static enum percuss_status check_unloading(const struct rows *rows, const struct
     struct spline loading, unloading;
     double *blocks[2] = {NULL, NULL};
     enum percuss_status status =
-        spline_of(points, &blocks[0], &loading) && spline_of(back, &blocks[1], &unloading)
+        own_curve_spline(points, &blocks[0], &loading) &&
+                own_curve_spline(back, &blocks[1], &unloading)
             ? check_energy(rows, &loading, &unloading)
             : fault_set(rows->fault, PERCUSS_INTERNAL, "%.300s: out of memory", rows->path);
     free(blocks[0]);
@@ -320,7 +310,7 @@ static enum percuss_status refuse_beside(struct reader *reader, struct entry ent
     if (!value || !reader_find(reader, entry.value, other).value)
         return PERCUSS_OK;
     reader_enter(reader, key);
-    return reader_refuse(reader, value, "must not stand beside %s", other);
+    return reader_refuse(reader, value, "must be absent beside %s", other);
 }
 
 enum percuss_status law_entry_read(struct reader *reader, struct entry entry, struct own_law *law)

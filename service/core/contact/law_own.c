@@ -11,23 +11,17 @@ enum { SAMPLES = 129 };
 /* A law with a loss has it from this share of its first indentation on. */
 static const double FIRST = 1e-3;
 
-/* The curve's forces over its last one at equal steps between its ends: by a monotone spline of
- * F^(2/3), as law_table.c interpolates. */
+/* The curve's forces over its last one at equal steps between its ends. */
 static bool sample(const struct own_curve *curve, double share[SAMPLES])
 {
-    size_t n = curve->count;
-    double *block = calloc(5 * n, sizeof *block);
-    if (!block)
+    struct spline spline;
+    double *block;
+    if (!own_curve_spline(curve, &block, &spline))
         return false;
-    struct spline spline = {n, curve->indentation, block, block + n};
-    double from = curve->indentation[0], range = curve->indentation[n - 1] - from;
-    for (size_t i = 0; i < n; i++)
-        spline.value[i] = curves_two_thirds(curve->force[i] / curve->force[n - 1]);
-    spline_set_slopes(&spline, block + 2 * n);
-    for (int i = 0; i < SAMPLES; i++) {
-        double slope, value = spline_at(&spline, from + range * i / (SAMPLES - 1), &slope);
-        share[i] = value * sqrt(value);
-    }
+    double from = curve->indentation[0], range = curve->indentation[curve->count - 1] - from;
+    double most = curve->force[curve->count - 1];
+    for (int i = 0; i < SAMPLES; i++)
+        share[i] = own_curve_force(&spline, from + range * i / (SAMPLES - 1)) / most;
     share[0] = 0.0;
     share[SAMPLES - 1] = 1.0;
     free(block);

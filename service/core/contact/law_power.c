@@ -1,15 +1,20 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* F = k d^n while it grows. From the largest indentation D back, F = k D^n (d/D)^m: with m + 1 =
- * (n + 1)/(1 - hysteresis) the work k D^(n+1)/(m + 1) that comes back is 1 - hysteresis of that of
- * loading, whatever D is, so that e^2 = 1 - hysteresis of rigid bodies. It leaves no dent. */
+/* Powers of the indentation, F = k d^n: elastic, with hysteresis, or with Hunt and Crossley's
+ * dissipation (J. Appl. Mech. 42 (1975) 440).
+ *
+ * With hysteresis the force is that while it grows. From the largest indentation D back, F = k D^n
+ * (d/D)^m: with m + 1 = (n + 1)/(1 - hysteresis) the work k D^(n+1)/(m + 1) that comes back is 1 -
+ * hysteresis of that of loading, whatever D is, so that e^2 = 1 - hysteresis of rigid bodies. It
+ * leaves no dent. */
 #include <math.h>
 
 #include "contact/law.h"
 #include "contact/plastic.h"
 
-enum { STIFFNESS, EXPONENT, BACK };
+/* The third is m of one, the dissipation of the other. */
+enum { STIFFNESS, EXPONENT, BACK, DISSIPATION = BACK };
 
 static double power_force(const struct contact_law *law, double d, double *slope)
 {
@@ -25,7 +30,7 @@ static double power_force(const struct contact_law *law, double d, double *slope
 static double power_work(const struct contact_law *law, double d)
 {
     double slope;
-    return power_force(law, d, &slope) * d / (law->parameters[EXPONENT] + 1.0);
+    return power_force(law, d, &slope) * fmax(d, 0.0) / (law->parameters[EXPONENT] + 1.0);
 }
 
 static double power_indentation(const struct contact_law *law, double force)
@@ -37,6 +42,19 @@ static void power_rescale(struct contact_law *law, double force, double yield)
 {
     (void)yield;
     law->parameters[STIFFNESS] *= force;
+}
+
+/* F (1 + dissipation d'), never pulling. */
+static double moving_force(const struct contact_law *law, double indentation, double rate,
+                           double *stiffness, double *viscosity)
+{
+    double c = law->parameters[DISSIPATION], factor = 1.0 + c * rate;
+    double elastic = power_force(law, indentation, stiffness);
+    if (!(factor > 0.0))
+        elastic = factor = 0.0;
+    *stiffness *= factor;
+    *viscosity = c * elastic;
+    return elastic * factor;
 }
 
 static double no_joint(const struct contact_law *law, double d)
@@ -101,9 +119,26 @@ static const struct contact_law_operations lossy_power = {
     .rescale = power_rescale,
 };
 
+static const struct contact_law_operations dissipative_power = {
+    .model = PERCUSS_CONTACT_LAW,
+    .title = "Hunt and Crossley's law",
+    .lossy = true,
+    .force = power_force,
+    .moving = moving_force,
+    .stored = power_work,
+    .indentation = power_indentation,
+    .rescale = power_rescale,
+};
+
 struct contact_law contact_law_power(double stiffness, double exponent, double hysteresis)
 {
     return (struct contact_law){
         .operations = hysteresis > 0.0 ? &lossy_power : &elastic_power,
         .parameters = {stiffness, exponent, (exponent + 1.0) / (1.0 - hysteresis) - 1.0}};
+}
+
+struct contact_law contact_law_dissipative(double stiffness, double exponent, double dissipation)
+{
+    return (struct contact_law){.operations = &dissipative_power,
+                                .parameters = {stiffness, exponent, dissipation}};
 }

@@ -7,8 +7,10 @@
 #ifndef PERCUSS_MODEL_OWN_LAW_H
 #define PERCUSS_MODEL_OWN_LAW_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
+#include "numeric/spline.h"
 #include "percuss/vocabulary.h"
 
 /* Deviation of the force of a law that is stated without one, as a share of it: that of repeated
@@ -32,6 +34,13 @@ struct own_law {
     struct own_curve points;    /* loading, from 0 m */
     struct own_curve unloading; /* from the last of `points` back; count 0: the same way */
 };
+
+/* A monotone spline of F^(2/3) over the indentation, by which a law goes through its points; values
+ * and slopes are in *block, for free(), the places the curve's. False: out of memory. */
+bool own_curve_spline(const struct own_curve *curve, double **block, struct spline *spline);
+
+/* The force at an indentation by such a spline, N. */
+double own_curve_force(const struct spline *spline, double indentation);
 
 /* Frees its curves. */
 void own_law_clear(struct own_law *law);

@@ -50,7 +50,8 @@ static int end(void **state)
     "  ball: {shape: sphere, material: steel, radius: 0.01}\n"                                     \
     "laws:\n"
 
-static const char GOOD[] = "indentation/m, force/N\n0, 0\n# smoothed\n1e-3, 10\n2e-3, 40\n";
+static const char GOOD[] =
+    "column 1: indentation/m, column 2: force/N\n0, 0\n# smoothed\n1e-3, 10\n2e-3, 40\n";
 
 /* A catalogue of the test's folder with one law, whose keys these are. */
 static enum percuss_status load(const char *keys, struct body_set **set, struct fault *fault)
@@ -104,10 +105,10 @@ static void numbers_are_checked(void **state)
     refused("stiffness: 1, deviation: 2", "laws.pad.deviation: 2: must be a share");
     refused("exponent: 2", "laws.pad: stiffness or points missing: a law must have one of them");
     refused("stiffness: 1, hysteresis: 0.1, dissipation: 1",
-            "laws.pad.dissipation: must not stand beside hysteresis");
+            "laws.pad.dissipation: must be absent beside hysteresis");
     refused("stiffness: 1, points: points.csv", "laws.pad.points: must be absent beside stiffness");
-    refused("stiffness: 1, unloading: back.csv", "laws.pad.unloading: must not stand beside");
-    refused("exponent: 2, points: points.csv", "laws.pad.exponent: must not stand beside points");
+    refused("stiffness: 1, unloading: back.csv", "laws.pad.unloading: must be absent beside");
+    refused("exponent: 2, points: points.csv", "laws.pad.exponent: must be absent beside points");
 }
 
 /* Files are found beside the catalogue, in either order of unloading. */

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/contact/laws.c, law_hertz.c, law_linear.c, law_power.c and
- * law_dissipative.c: what may be asked for is known by its number; force, slope, stored energy and
- * inverse of one law fit together. The pattern for the test of a new law. */
+/* Mirrors service/core/contact/laws.c, law_hertz.c, law_linear.c and law_power.c: what may be asked
+ * for is known by its number; force, slope, stored energy and inverse of one law fit together. The
+ * pattern for the test of a new law. */
 #include "check.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
