@@ -67,8 +67,8 @@ static void matches_quadrature(void **state)
         make_inputs(omega, h, x);
         oscillator_loss_form(omega, damping, h, form);
         works(omega, damping, h, 40 + (int)(4.0 * angle), x, work);
-        /* the audit promises 1e-9; measured 1e-12, near critical damping 6e-11 (its quadrature's
-         * panels below omega h = 2, two nearly equal exponentials above) */
+        /* the audit promises 1e-9; measured 1e-12, near critical damping above omega h = 2
+         * 2e-11 (two nearly equal exponentials) */
         measured("loss", apply(form, x), work[0], 1e-10 * work[0]);
         assert_true(work[0] > 0.0);
         for (int r = 0; r < LOSS_INPUTS; r++)
