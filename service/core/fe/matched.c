@@ -376,31 +376,43 @@ double matched_sphere(double poisson, double patch)
     return sum;
 }
 
-bool matched_compliance(const struct body *body, double patch, double *compliance)
+double matched_unit(const struct body *body)
+{
+    double radius = body_solid(body).radius;
+    return radius > 0.0 ? 1.0 / (body->material.young * radius) : 0.0;
+}
+
+bool matched_share(const struct body *body, double patch, double *share)
 {
     struct solid solid = body_solid(body);
     double poisson = body->material.poisson;
-    double scale = 1.0 / (body->material.young * solid.radius);
     double slenderness = solid.length / solid.radius;
     double held = body_is_flexible(body) ? slenderness / (3.0 * M_PI) : 0.0;
-    /* in units of 1/(E R), by form; none for other forms */
     switch (solid.form) {
     case SOLID_HALF_SPACE:
-        *compliance = 0.0;
+        *share = 0.0;
         return true;
     case SOLID_BALL:
-        *compliance = scale * matched_sphere(poisson, patch / solid.radius);
+        *share = matched_sphere(poisson, patch);
         return true;
     case SOLID_CYLINDER:
         if (solid.approximate || isfinite(solid.tip_radius))
             break;
-        if (!matched_cylinder(poisson, slenderness, compliance))
+        if (!matched_cylinder(poisson, slenderness, share))
             return false;
-        *compliance = scale * (*compliance - held);
+        *share -= held;
         return true;
     default:
         break;
     }
-    *compliance = NAN;
+    *share = NAN;
+    return true;
+}
+
+bool matched_compliance(const struct body *body, double patch, double *compliance)
+{
+    if (!matched_share(body, patch / body_solid(body).radius, compliance))
+        return false;
+    *compliance *= matched_unit(body);
     return true;
 }

@@ -25,11 +25,16 @@
  * solution for such a solid (beam, block, rounded tip). False: out of memory. */
 bool matched_compliance(const struct body *body, double patch, double *compliance);
 
-/* Times young * radius, dimensionless: of a cylinder that is long or short, rigid basis. False:
+/* The same in units of matched_unit(), 1/(young radius), 0 for a half-space: depends on the solid's
+ * form and proportions, on Poisson's ratio and on `patch`, here over the solid's radius. */
+double matched_unit(const struct body *body);
+bool matched_share(const struct body *body, double patch, double *share);
+
+/* In that unit: of a cylinder that is long or short, rigid basis. False:
  * out of memory. Some milliseconds; depends on poisson and on length / radius alone. */
 bool matched_cylinder(double poisson, double slenderness, double *compliance);
 
-/* Times young * radius: of a sphere; `patch` is the contact radius over the sphere's. */
+/* In that unit: of a sphere; `patch` is the contact radius over the sphere's. */
 double matched_sphere(double poisson, double patch);
 
 #endif

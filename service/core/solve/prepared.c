@@ -44,9 +44,19 @@ struct entry {
     struct prepared_family *families[BODY_MOST_FAMILIES];
     struct remainder *remainders[BODY_MOST_FAMILIES];
     struct radiation *radiation;
-    bool asked[OCTAVES];     /* `matched` is computed */
-    double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
+
+/* Matched compliances of solids that are alike, in the unit of matched_unit. */
+struct matched {
+    struct solid solid; /* its length in radii */
+    double poisson;
+    bool flexible;
+    bool asked[OCTAVES];   /* `share` is computed */
+    double share[OCTAVES]; /* [k]: with the patch 2^-k; [0] where it does not matter */
+};
+
+/* Solids that are not alike: those of a scene, with some to spare. */
+enum { SOLIDS = 16 };
 
 /* Cached contact ellipses: enough for a scene, or for some scenes asked by turns. */
 enum { CONTACTS = 16 };
@@ -80,6 +90,8 @@ struct prepared_cache {
     struct ritz_store *boxes; /* source of those held; NULL: none is in use yet */
     struct held *held;
     struct hertz_contact contacts[CONTACTS]; /* by a hash of the curvatures; all zero: none */
+    struct matched matched[SOLIDS];          /* in turn */
+    size_t matched_count;                    /* ever made */
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
@@ -289,7 +301,6 @@ static void entry_clear(struct entry *entry)
         free(entry->radiation);
         entry->radiation = next;
     }
-    memset(entry->asked, 0, sizeof entry->asked);
 }
 
 /* Forgets all bodies, or only the varied ones. */
@@ -661,32 +672,53 @@ bool prepared_ritz_tensor(struct prepared_cache *cache, const struct ritz *ritz,
                : ritz_tensor(ritz, axis, side, point, tensor);
 }
 
-/* Asks for the compliance at an octave. False: out of memory. */
-static bool match_at(struct entry *entry, const struct body *body, int octave)
+static bool solid_alike(const struct matched *known, const struct solid *solid, double poisson,
+                        bool flexible)
 {
-    double patch = ldexp(body->radius, -octave);
-    if (!entry->asked[octave])
-        entry->asked[octave] = matched_compliance(body, patch, &entry->matched[octave]);
-    return entry->asked[octave];
+    return known->solid.form == solid->form && known->solid.length == solid->length &&
+           known->solid.tip_radius == solid->tip_radius &&
+           known->solid.approximate == solid->approximate && known->poisson == poisson &&
+           known->flexible == flexible;
+}
+
+/* That of the solids alike; if there is none the oldest gives its place. */
+static struct matched *find_matched(struct prepared_cache *cache, const struct body *body)
+{
+    struct solid solid = body_solid(body);
+    double poisson = body->material.poisson;
+    bool flexible = body_is_flexible(body);
+    if (solid.radius > 0.0)
+        solid.length /= solid.radius;
+    size_t filled = cache->matched_count < SOLIDS ? cache->matched_count : SOLIDS;
+    for (size_t i = 0; i < filled; i++)
+        if (solid_alike(&cache->matched[i], &solid, poisson, flexible))
+            return &cache->matched[i];
+    struct matched *made = &cache->matched[cache->matched_count++ % SOLIDS];
+    *made = (struct matched){.solid = solid, .poisson = poisson, .flexible = flexible};
+    return made;
+}
+
+/* Asks for the compliance at an octave, m/N. False: out of memory. */
+static bool match_at(struct matched *known, const struct body *body, int octave, double *compliance)
+{
+    if (!known->asked[octave])
+        known->asked[octave] = matched_share(body, ldexp(1.0, -octave), &known->share[octave]);
+    *compliance = known->share[octave] * matched_unit(body);
+    return known->asked[octave];
 }
 
 bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double patch,
                           double *compliance)
 {
-    struct entry *entry = find_entry(cache, body);
-    if (!entry)
-        return false;
-    if (body_solid(body).form != SOLID_BALL) {
-        bool matched = match_at(entry, body, 0);
-        *compliance = entry->matched[0];
-        return matched;
-    }
+    struct matched *known = find_matched(cache, body);
+    if (body_solid(body).form != SOLID_BALL)
+        return match_at(known, body, 0, compliance);
     double octave = fmax(1.0, -log2(patch / body->radius));
     int below = (int)fmin(octave, OCTAVES - 2);
-    if (!match_at(entry, body, below) || !match_at(entry, body, below + 1))
+    double low;
+    double high;
+    if (!match_at(known, body, below, &low) || !match_at(known, body, below + 1, &high))
         return false;
-    double low = entry->matched[below];
-    double high = entry->matched[below + 1];
     *compliance = low + (octave - below) * (high - low);
     return true;
 }
