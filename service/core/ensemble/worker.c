@@ -390,8 +390,10 @@ static enum percuss_status apply(struct ensemble_worker *worker, const double *v
     struct variation *variation = &worker->variation;
     enum percuss_status status = variation_apply(variation, values, fault);
     for (size_t i = 0; !status && i < variation->set.count; i++)
-        if (variation_changes_body(variation, &variation->set.bodies[i]))
-            repeat_forget(worker->repeat, variation->set.bodies[i].id);
+        if (variation_changes_body(variation, &variation->set.bodies[i])) {
+            variation->set.bodies[i].varied = true;
+            repeat_forget(worker->repeat);
+        }
     return status;
 }
 

@@ -125,19 +125,40 @@ static int plane_number(size_t family)
     return family == BAR_BENDING_Z;
 }
 
+/* The search for modes, and how many it has passed. */
+struct bending_walk {
+    struct beam_root_walk roots;
+    size_t passed;
+};
+
 static void find_bending(const struct body *body, struct modal_family *modes)
 {
     struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
-    struct beam_mode *shapes = modes->shapes;
+    struct beam_unit_mode *shapes = modes->shapes;
+    struct bending_walk *walk = modes->walk;
     size_t known = modes->known;
-    if (known == 0)
-        beam_modes_start(&plane, modes->walk);
-    beam_modes_next(&plane, modes->walk, modes->count - known, shapes + known);
-    bool alike = plane.supports[0] == plane.supports[1];
-    for (size_t k = known; k < modes->count; k++) {
-        modes->omega[k] = shapes[k].omega;
-        modes->odd[k] = alike && shapes[k].even[0] == 0.0 && shapes[k].even[1] == 0.0;
+    /* of known modes some may have been left out since */
+    if (modes->count > known && (known == 0 || walk->passed != known)) {
+        beam_modes_start(&plane, &walk->roots);
+        beam_modes_next(&plane, &walk->roots, known, NULL);
     }
+    if (modes->count > known) {
+        beam_modes_next(&plane, &walk->roots, modes->count - known, shapes + known);
+        walk->passed = modes->count;
+    }
+    bool alike = plane.supports[0] == plane.supports[1];
+    for (size_t k = 0; k < modes->count; k++) {
+        const double *amplitudes = shapes[k].amplitudes;
+        modes->omega[k] = beam_frequency_of(&plane, &shapes[k]);
+        modes->odd[k] = alike && amplitudes[0] == 0.0 && amplitudes[1] == 0.0;
+    }
+}
+
+static bool bending_alike(const struct body *a, const struct body *b, size_t family)
+{
+    struct beam_plane first = beam_plane_of(a, plane_number(family));
+    struct beam_plane second = beam_plane_of(b, plane_number(family));
+    return beam_planes_alike(&first, &second);
 }
 
 static void bending_participations(const struct body *body, const struct modal_family *modes,
@@ -145,9 +166,11 @@ static void bending_participations(const struct body *body, const struct modal_f
                                    const struct family_load *load, double *row)
 {
     struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
-    const struct beam_mode *shapes = modes->shapes;
-    for (size_t i = 0; i < count; i++)
-        row[i] = beam_mode_on(&plane, &shapes[which[i]], &load->bar);
+    const struct beam_unit_mode *shapes = modes->shapes;
+    for (size_t i = 0; i < count; i++) {
+        struct beam_mode mode = beam_mode_of(&plane, &shapes[which[i]]);
+        row[i] = beam_mode_on(&plane, &mode, &load->bar);
+    }
 }
 
 static double bending_compliance(const struct body *body, size_t family,
@@ -159,9 +182,10 @@ static double bending_compliance(const struct body *body, size_t family,
 
 const struct mode_family beam_bending_family = {
     .bends = true,
-    .shape_size = sizeof(struct beam_mode),
-    .walk_size = sizeof(struct beam_root_walk),
+    .shape_size = sizeof(struct beam_unit_mode),
+    .walk_size = sizeof(struct bending_walk),
     .find = find_bending,
+    .alike = bending_alike,
     .participations = bending_participations,
     .compliance = bending_compliance,
 };

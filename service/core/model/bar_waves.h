@@ -16,7 +16,7 @@
 extern const struct mode_family longitudinal_family;
 
 /* Bending (beam.h) in the plane y as BAR_BENDING_Y, in the plane z as BAR_BENDING_Z; shapes are
- * struct beam_mode. */
+ * struct beam_unit_mode. */
 extern const struct mode_family beam_bending_family;
 
 /* Twist theta about the axis, by a load's moment, with warping of the section (Vlasov 1961):

@@ -618,24 +618,31 @@ static double right_end_value(const struct beam_wave *wave, enum support support
            odd[1] * amplitudes[3];
 }
 
-static struct beam_mode mode_of(const struct beam_plane *plane, const struct beam_wave *wave,
-                                const double amplitudes[4], double scale)
+double beam_frequency_of(const struct beam_plane *plane, const struct beam_unit_mode *unit)
 {
+    double time = plane->length * plane->length * sqrt(plane->line_mass / plane->bending_stiffness);
+    return unit->b / time;
+}
+
+struct beam_mode beam_mode_of(const struct beam_plane *plane, const struct beam_unit_mode *unit)
+{
+    double mass = plane->line_mass * plane->length * unit->norm;
+    double scale = copysign(1.0 / sqrt(mass), unit->end);
     double slope = scale / plane->length;
-    double unit = plane->length * plane->length * sqrt(plane->line_mass / plane->bending_stiffness);
+    const double *amplitudes = unit->amplitudes;
 
     return (struct beam_mode){
-        .omega = wave->b / unit,
-        .alpha = wave->alpha,
-        .beta = wave->beta,
+        .omega = beam_frequency_of(plane, unit),
+        .alpha = unit->alpha,
+        .beta = unit->beta,
         .even = {scale * amplitudes[0], scale * amplitudes[1]},
-        .odd = {scale * amplitudes[2] * wave->alpha_squared / (wave->alpha * wave->beta),
+        .odd = {scale * amplitudes[2] * unit->alpha_squared / (unit->alpha * unit->beta),
                 scale * amplitudes[3]},
-        .even_slope = {slope * amplitudes[0] * wave->hyper / wave->alpha,
-                       -slope * amplitudes[1] * wave->trig / wave->beta},
-        .odd_slope = {slope * amplitudes[2] * wave->hyper / wave->beta,
-                      slope * amplitudes[3] * wave->trig / wave->beta},
-        .above_cutoff = wave->alpha_squared < 0.0,
+        .even_slope = {slope * amplitudes[0] * unit->hyper / unit->alpha,
+                       -slope * amplitudes[1] * unit->trig / unit->beta},
+        .odd_slope = {slope * amplitudes[2] * unit->hyper / unit->beta,
+                      slope * amplitudes[3] * unit->trig / unit->beta},
+        .above_cutoff = unit->alpha_squared < 0.0,
     };
 }
 
@@ -657,13 +664,25 @@ void beam_modes_start(const struct beam_plane *plane, struct beam_root_walk *wal
 void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes)
 {
     struct beam_root_walk walk;
+    struct beam_unit_mode unit;
 
     beam_modes_start(plane, &walk);
-    beam_modes_next(plane, &walk, count, modes);
+    for (size_t k = 0; k < count; k++) {
+        beam_modes_next(plane, &walk, 1, &unit);
+        modes[k] = beam_mode_of(plane, &unit);
+    }
+}
+
+bool beam_planes_alike(const struct beam_plane *a, const struct beam_plane *b)
+{
+    struct beam_ratios first = ratios_of(a), second = ratios_of(b);
+
+    return first.inertia == second.inertia && first.shear == second.shear &&
+           a->supports[0] == b->supports[0] && a->supports[1] == b->supports[1];
 }
 
 void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk, size_t count,
-                     struct beam_mode *modes)
+                     struct beam_unit_mode *modes)
 {
     struct beam_ratios ratios = ratios_of(plane);
     bool mirrored = is_mirrored(plane);
@@ -671,6 +690,8 @@ void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk
 
     for (size_t k = 0; k < count; k++) {
         struct beam_root root = beam_root_walk_next(walk);
+        if (!modes)
+            continue;
         struct beam_wave wave = beam_wave_at(&ratios, root.b);
         double amplitudes[4];
 
@@ -679,10 +700,17 @@ void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk
             amplitudes[2] = -amplitudes[2];
             amplitudes[3] = -amplitudes[3];
         }
-        double mass =
-            plane->line_mass * plane->length * squared_norm(&wave, ratios.inertia, amplitudes);
-        double end = right_end_value(&wave, plane->supports[1], amplitudes);
-        modes[k] = mode_of(plane, &wave, amplitudes, copysign(1.0 / sqrt(mass), end));
+        modes[k] = (struct beam_unit_mode){
+            .b = wave.b,
+            .alpha = wave.alpha,
+            .beta = wave.beta,
+            .alpha_squared = wave.alpha_squared,
+            .hyper = wave.hyper,
+            .trig = wave.trig,
+            .amplitudes = {amplitudes[0], amplitudes[1], amplitudes[2], amplitudes[3]},
+            .norm = squared_norm(&wave, ratios.inertia, amplitudes),
+            .end = right_end_value(&wave, plane->supports[1], amplitudes),
+        };
     }
 }
 

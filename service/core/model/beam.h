@@ -40,6 +40,14 @@ struct beam_mode {
     bool above_cutoff;
 };
 
+/* The same of all beams with its proportions, Poisson's ratio and supports. Fields are private. */
+struct beam_unit_mode {
+    double b; /* omega sqrt(rhoA L^4/EI) */
+    double alpha, beta, alpha_squared, hyper, trig;
+    double amplitudes[4];
+    double norm, end; /* integral of w^2 + r^2 Psi^2 over s; the value that makes the sign */
+};
+
 /* The first `count` elastic modes (without rigid ones), frequencies ascending, relative error of
  * omega some 1e-15. No mode is missed: each root has its own bracket, see beam.c. Shapes are good
  * to 1e-12 of their amplitude unless frequencies are close: two waves with a relative gap between
@@ -100,10 +108,18 @@ void beam_root_walk_start(struct beam_root_walk *walk, const struct beam_ratios 
 /* The next elastic root; rigid motions are not among them. */
 struct beam_root beam_root_walk_next(struct beam_root_walk *walk);
 
-/* The modes by parts: a walk is started, and then gives the next `count` modes. */
+/* The modes by parts: a walk is started, and then gives the next `count` modes, or passes over them
+ * (NULL). */
 void beam_modes_start(const struct beam_plane *plane, struct beam_root_walk *walk);
 void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk, size_t count,
-                     struct beam_mode *modes);
+                     struct beam_unit_mode *modes);
+
+/* Whether two planes have the same unit modes, to the last bit. */
+bool beam_planes_alike(const struct beam_plane *a, const struct beam_plane *b);
+
+/* A plane's mode and its frequency (rad/s) from the unit mode. */
+struct beam_mode beam_mode_of(const struct beam_plane *plane, const struct beam_unit_mode *unit);
+double beam_frequency_of(const struct beam_plane *plane, const struct beam_unit_mode *unit);
 
 /* Deflection w and rotation psi of the section at x (m) for unit modal coordinate. For
  * Euler-Bernoulli psi = dw/dx. Sign: psi = +dw/dx where shear vanishes. */

@@ -71,7 +71,7 @@ struct body {
     struct yield_rate yield_rate;
     double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */
     unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
-    bool varied;                  /* by body_vary */
+    bool varied;                  /* by body_vary, or a sample of an ensemble */
     const struct mesh_body *mesh; /* mesh: borrowed from the set */
     double scale;                 /* mesh: its size over the file's; 0: not stated, 1 */
     bool rigid;                   /* mesh, block: its vibration is left out */

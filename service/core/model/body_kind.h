@@ -61,8 +61,12 @@ struct mode_family {
     size_t shape_size; /* bytes of a mode in modal_family's shapes */
     size_t walk_size;  /* and of its walk */
 
-    /* Fills in the modes; the first `known` ones are there already. */
+    /* Fills in the modes; shapes of the first `known` ones are there already. */
     void (*find)(const struct body *body, struct modal_family *modes);
+
+    /* Whether two bodies of the kind have the same shapes in modal_family, to the last bit. NULL:
+     * only if they are the same. */
+    bool (*alike)(const struct body *a, const struct body *b, size_t family);
 
     /* Displacement of the modes which[0 .. count - 1] at a load, along it, for unit modal
      * coordinates, 1/sqrt(kg). */

@@ -57,14 +57,18 @@ struct modal_family *modal_family_grow(const struct body *body, const struct mod
     if (!modes)
         return NULL;
     if (kind->walk_size) {
-        modes->known = known->count;
-        memcpy(modes->omega, known->omega, known->count * sizeof *known->omega);
-        memcpy(modes->odd, known->odd, known->count * sizeof *known->odd);
-        memcpy(modes->shapes, known->shapes, known->count * kind->shape_size);
+        modes->known = known->count < count ? known->count : count;
+        memcpy(modes->shapes, known->shapes, modes->known * kind->shape_size);
         memcpy(modes->walk, known->walk, kind->walk_size);
     }
     kind->find(body, modes);
     return modes;
+}
+
+bool modal_family_alike(const struct body *a, const struct body *b, size_t family)
+{
+    const struct mode_family *kind = a->kind->families[family];
+    return a->kind == b->kind && kind->alike && kind->alike(a, b, family);
 }
 
 void modal_family_free(struct modal_family *modes)

@@ -59,10 +59,14 @@ static inline struct site_load site_load_make(const struct body *body, const str
 /* The first `count` modes of a family; NULL: out of memory. */
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count);
 
-/* The same, to the same bits, from a family with fewer modes, which are not computed again. */
+/* The same, to the same bits, from a family of that body, or of one alike, whose modes are not
+ * searched for again. */
 struct modal_family *modal_family_grow(const struct body *body, const struct modal_family *known,
                                        size_t count);
 void modal_family_free(struct modal_family *modes);
+
+/* Whether the modes of one body's family serve another body's: only units differ. */
+bool modal_family_alike(const struct body *a, const struct body *b, size_t family);
 
 /* The largest number of modes of a family; SIZE_MAX: any number. */
 size_t modal_family_most(const struct body *body, size_t family);

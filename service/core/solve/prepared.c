@@ -244,7 +244,7 @@ static bool group_create(struct prepared_group *group, const struct body *body,
     return group->set != NULL;
 }
 
-/* `known`: the first ones; NULL: none are. */
+/* `known`: some of them, or of a body alike; NULL: none are. */
 static struct prepared_family *family_create(const struct body *body, size_t which, size_t count,
                                              const struct modal_family *known)
 {
@@ -499,6 +499,21 @@ static struct entry *find_entry(struct prepared_cache *cache, const struct body 
     return touch(cache, entry);
 }
 
+/* Of the known modes that serve the body, its own or those of one alike (of the same id, with
+ * another density, say), the most; NULL: none. */
+static const struct modal_family *find_modes(struct prepared_cache *cache, const struct entry *own,
+                                             size_t family)
+{
+    const struct modal_family *best = own->families[family] ? own->families[family]->modes : NULL;
+    for (struct entry *entry = *find_bucket(cache, own->body.id); entry; entry = entry->next) {
+        const struct prepared_family *other = entry->families[family];
+        if (other && (!best || other->modes->count > best->count) &&
+            modal_family_alike(&entry->body, &own->body, family))
+            best = other->modes;
+    }
+    return best;
+}
+
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, size_t family,
                                                   size_t count)
@@ -517,7 +532,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
     /* too few: more, with some to spare */
     size_t rounded = (count + ROUNDING - 1) / ROUNDING * ROUNDING;
     struct prepared_family *made =
-        family_create(body, family, rounded ? rounded : ROUNDING, known ? known->modes : NULL);
+        family_create(body, family, rounded ? rounded : ROUNDING, find_modes(cache, entry, family));
     if (!made)
         return NULL;
     /* a scene may still point at the old ones */
@@ -721,22 +736,4 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
         return false;
     *compliance = low + (octave - below) * (high - low);
     return true;
-}
-
-void prepared_cache_forget(struct prepared_cache *cache, const char *id)
-{
-    count_touched(cache);
-    parts_clear(&cache->parts);
-    for (struct entry **link = find_bucket(cache, id); *link;) {
-        struct entry *entry = *link;
-        if (strcmp(entry->body.id, id) != 0) {
-            link = &entry->next;
-            continue;
-        }
-        *link = entry->next;
-        cache->varied -= entry->body.varied;
-        cache->bytes -= entry->bytes;
-        entry_clear(entry);
-        free(entry);
-    }
 }

@@ -57,9 +57,6 @@ size_t prepared_cache_bytes(const struct prepared_cache *cache);
 /* Frees the entries of bodies with parameters of a request's own, or all. No scene may use any. */
 void prepared_cache_drop(struct prepared_cache *cache, bool only_varied);
 
-/* Forgets one body: the next one of that id is another. No scene may use it any more. */
-void prepared_cache_forget(struct prepared_cache *cache, const char *id);
-
 /* At least `count` modes of a family of a body (of the revision in use); families that are alike
  * (bending_axes.h) share theirs. The result stays valid
  * until the next prepared_cache_use. NULL: out of memory. */

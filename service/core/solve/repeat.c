@@ -44,10 +44,9 @@ void repeat_free(struct repeat *repeat)
     free(repeat);
 }
 
-void repeat_forget(struct repeat *repeat, const char *id)
+void repeat_forget(struct repeat *repeat)
 {
     repeat->problem = NULL;
-    prepared_cache_forget(repeat->cache, id);
 }
 
 static void read_track(const struct problem *problem, const struct impact_outcome *solved,

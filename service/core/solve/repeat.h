@@ -35,8 +35,8 @@ struct repeat;
 struct repeat *repeat_create(void); /* NULL: out of memory */
 void repeat_free(struct repeat *repeat);
 
-/* Forgets the body of that id: another one has it from now on. */
-void repeat_forget(struct repeat *repeat, const char *id);
+/* Forgets the last problem: its bodies are other ones from now on. */
+void repeat_forget(struct repeat *repeat);
 
 /* Solves by the accuracy search; fills `model` (NULL: not wanted) and the outcome of `contact`.
  * Returns outcome->status; refusals carry a message. The request must have passed solve(). */

@@ -121,7 +121,9 @@ static void moved(const struct body *body, const struct modal_family *modes, siz
     } else {
         int plane = modes->family == BAR_BENDING_Z;
         struct beam_plane bent = beam_plane_of(body, plane);
-        beam_mode_at(&bent, (const struct beam_mode *)modes->shapes + k, at, &w, &psi);
+        struct beam_mode mode =
+            beam_mode_of(&bent, (const struct beam_unit_mode *)modes->shapes + k);
+        beam_mode_at(&bent, &mode, at, &w, &psi);
         u[0] = -psi * point[1 + plane];
         u[1 + plane] = w + psi * lever;
     }

@@ -33,10 +33,58 @@ static void more_modes_change_no_bit(void **state)
     assert_true(many != few && many->modes->count >= 300);
     /* the smaller one is still there: a scene may hold it */
     assert_memory_equal(few->modes->omega, many->modes->omega, count * sizeof(double));
-    assert_memory_equal(few->modes->shapes, many->modes->shapes, count * sizeof(struct beam_mode));
+    assert_memory_equal(few->modes->shapes, many->modes->shapes,
+                        count * sizeof(struct beam_unit_mode));
     assert_memory_equal(few->modes->odd, many->modes->odd, count);
     assert_ptr_equal(prepared_family_get(cache, &body, BAR_BENDING_Z, 4), many);
     prepared_cache_free(cache);
+}
+
+/* Of 40 modes of a body all frequencies and participations in a load. */
+static void note_modes(struct prepared_cache *cache, const struct body *body, double noted[2][40])
+{
+    const struct prepared_family *family = prepared_family_get(cache, body, BAR_BENDING_Z, 40);
+    struct family_load load = {.acts = true, .bar = {.x = 0.1, .force = 1.0}};
+    assert_non_null(family);
+    memcpy(noted[0], family->modes->omega, sizeof noted[0]);
+    for (size_t k = 0; k < 40; k++)
+        noted[1][k] = modal_participation(body, family->modes, k, &load);
+}
+
+/* With other densities, or the modulus four times as large, the search is not made again, whether
+ * before fewer or more modes were asked for: the bits are those of a search. */
+static void bodies_alike_share_their_search(void **state)
+{
+    (void)state;
+    for (size_t before = 5; before < 100; before += 37) {
+        struct prepared_cache *cache = prepared_cache_create();
+        struct prepared_cache *fresh = prepared_cache_create();
+        assert_true(cache && fresh);
+        prepared_cache_use(cache, "one");
+        prepared_cache_use(fresh, "one");
+        struct body body = beam("beam", 1.0);
+        assert_non_null(prepared_family_get(cache, &body, BAR_BENDING_Z, before));
+        body.varied = true;
+        body.material.young *= 4.0;
+        body.material.density = 2800.0;
+        assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
+        struct body first = beam("beam", 1.0);
+        assert_true(modal_family_alike(&first, &body, BAR_BENDING_Z));
+        double shared[2][40];
+        double searched[2][40];
+        note_modes(cache, &body, shared);
+        note_modes(fresh, &body, searched);
+        assert_memory_equal(shared, searched, sizeof shared);
+        /* and further ones */
+        const struct prepared_family *more = prepared_family_get(cache, &body, BAR_BENDING_Z, 120);
+        const struct prepared_family *all = prepared_family_get(fresh, &body, BAR_BENDING_Z, 120);
+        assert_memory_equal(more->modes->omega, all->modes->omega, 120 * sizeof(double));
+        prepared_cache_free(cache);
+        prepared_cache_free(fresh);
+    }
+    struct body thin = beam("beam", 1.0);
+    struct body thick = beam("beam", 0.9);
+    assert_false(modal_family_alike(&thin, &thick, BAR_BENDING_Z));
 }
 
 /* Even and odd modes of equal ends, in two groups that list all modes once, ascending. */
@@ -179,6 +227,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(more_modes_change_no_bit),
+        cmocka_unit_test(bodies_alike_share_their_search),
         cmocka_unit_test(groups_split_by_parity),
         cmocka_unit_test(contacts_are_those_made_anew),
         cmocka_unit_test(participations_in_any_order_are_the_same_bits),
