@@ -8,6 +8,12 @@
 
 #include "base/vector_clones.h"
 
+/* Four nodes, or four other places of a step, together; and complex numbers at them. */
+typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
+struct waves {
+    quad re, im;
+};
+
 /* ---- Maps over a step ---- */
 
 double complex oscillator_lambda(double omega, double damping)
@@ -85,28 +91,69 @@ double oscillator_free_loss(double omega, double damping, double time, double q,
     return damping * omega * square;
 }
 
-/* For |z c| < LARGE. int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!, without cancellation
- * for small x = z c, gives the highest moment; by parts, downward, the others, each with an error
- * of at most about |x|/m that of the one before. */
-static void small_moments(double complex z, double c, double complex moments[NODES])
+/* Of four places c with |z c| < LARGE. int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!,
+ * without cancellation for small x = z c, gives the highest moment; by parts, downward, the others,
+ * each with an error of at most about |x|/m that of the one before. */
+static inline void small_moments(double complex z, const double c[NODES],
+                                 struct waves moments[NODES])
 {
-    /* the series by Horner's rule */
-    double complex x = z * c;
-    double complex sum = 1.0;
+    quad place;
+    memcpy(&place, c, sizeof place);
+    struct waves x = {creal(z) * place, cimag(z) * place};
+    double largest = fmax(fmax(c[0], c[1]), fmax(c[2], c[3]));
     int row = 0;
-    while (!(square(x) < SERIES[row].below))
+    while (!(square(z * largest) < SERIES[row].below))
         row++;
+    /* the series by Horner's rule */
+    const quad one = {1.0, 1.0, 1.0, 1.0};
+    struct waves sum = {one, 0.0 * one};
     for (int k = SERIES[row].terms; k > 0; k--) {
         double share = 1.0 / (NODES + k);
-        sum = 1.0 + times(CMPLX(creal(x) * share, cimag(x) * share), sum);
+        quad re = x.re * share;
+        quad im = x.im * share;
+        sum = (struct waves){1.0 + (re * sum.re - im * sum.im), re * sum.im + im * sum.re};
     }
     /* powers of c, and downward */
-    double power[NODES + 1] = {1.0};
+    quad power[NODES + 1] = {one};
     for (int m = 1; m <= NODES; m++)
-        power[m] = power[m - 1] * c;
-    moments[NODES - 1] = power[NODES] / NODES * sum;
-    for (int m = NODES - 1; m > 0; m--)
-        moments[m - 1] = (times(z, moments[m]) + power[m]) * (1.0 / m);
+        power[m] = power[m - 1] * place;
+    quad highest = power[NODES] / NODES;
+    moments[NODES - 1] = (struct waves){highest * sum.re, highest * sum.im};
+    for (int m = NODES - 1; m > 0; m--) {
+        const struct waves *above = &moments[m];
+        double share = 1.0 / m;
+        moments[m - 1] = (struct waves){
+            (creal(z) * above->re - cimag(z) * above->im + power[m]) * share,
+            (creal(z) * above->im + cimag(z) * above->re) * share,
+        };
+    }
+}
+
+/* Response to the forces at the nodes: kick[j] = sum_m monomial[j][m] moments[m]. */
+static inline void small_kicks(const struct waves moments[NODES], struct waves kick[NODES])
+{
+    for (int j = 0; j < NODES; j++) {
+        const double *monomial = collocation.monomial[j];
+        kick[j] = (struct waves){monomial[0] * moments[0].re, monomial[0] * moments[0].im};
+        for (int m = 1; m < NODES; m++) {
+            kick[j].re += monomial[m] * moments[m].re;
+            kick[j].im += monomial[m] * moments[m].im;
+        }
+    }
+}
+
+/* The kicks [j][place] of four places. */
+VECTOR_CLONES static void find_small_kicks(double complex z, const double c[NODES],
+                                           double re[NODES][NODES], double im[NODES][NODES])
+{
+    struct waves moments[NODES];
+    struct waves kick[NODES];
+    small_moments(z, c, moments);
+    small_kicks(moments, kick);
+    for (int j = 0; j < NODES; j++) {
+        memcpy(re[j], &kick[j].re, sizeof re[j]);
+        memcpy(im[j], &kick[j].im, sizeof im[j]);
+    }
 }
 
 /* For |z c| >= LARGE, with wave = exp(z c): by parts, upward, each step divides by |z c|. */
@@ -123,48 +170,81 @@ static void large_moments(double complex z, double c, double complex wave,
     }
 }
 
+/* Kick [j] of one place, with wave = exp(z c). */
+static void large_kicks(double complex z, double c, double complex wave, double complex kick[NODES])
+{
+    double complex moments[NODES];
+    large_moments(z, c, wave, moments);
+    for (int j = 0; j < NODES; j++) {
+        double re = 0.0;
+        double im = 0.0;
+        for (int m = 0; m < NODES; m++) {
+            re += collocation.monomial[j][m] * creal(moments[m]);
+            im += collocation.monomial[j][m] * cimag(moments[m]);
+        }
+        kick[j] = CMPLX(re, im);
+    }
+}
+
 void oscillator_moments(double complex z, double c, double complex moments[NODES])
 {
-    if (square(z * c) < LARGE * LARGE)
-        small_moments(z, c, moments);
-    else
+    if (square(z * c) >= LARGE * LARGE) {
         large_moments(z, c, cexp(z * c), moments);
+        return;
+    }
+    struct waves at[NODES];
+    small_moments(z, (double[NODES]){c, c, c, c}, at);
+    for (int m = 0; m < NODES; m++)
+        moments[m] = CMPLX(at[m].re[0], at[m].im[0]);
 }
 
 /* Duhamel: q(T) = free + Im int_0^T e^(lambda (T - t)) f(t) dt / Im(lambda), v with lambda times
  * the kernel; f = sum_j f_j sum_m monomial[j][m] (t/h)^m, T = c h, so that the integrals are h
- * sum_m monomial[j][m] moments[m] with z = lambda h. */
-void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
-                    double to_v[NODES + 2])
+ * kick[j] with z = lambda h. */
+void oscillator_maps(double omega, double damping, double h, size_t count, const double *c,
+                     double (*to_q)[NODES + 2], double (*to_v)[NODES + 2])
 {
     double complex lambda = oscillator_lambda(omega, damping);
     double complex z = lambda * h;
-    double complex moments[NODES];
-    /* the free motion; the moments of fast oscillators need its wave too */
-    free_map(lambda, c * h, to_q, to_v);
-    if (square(z * c) < LARGE * LARGE)
-        small_moments(z, c, moments);
-    else
-        large_moments(z, c, CMPLX(to_q[0] + creal(lambda) * to_q[1], cimag(lambda) * to_q[1]),
-                      moments);
-    /* and the forces at the nodes */
     double share = h / cimag(lambda);
-    for (int j = 0; j < NODES; j++) {
-        double real = 0.0;
-        double imaginary = 0.0;
-        for (int m = 0; m < NODES; m++) {
-            real += collocation.monomial[j][m] * creal(moments[m]);
-            imaginary += collocation.monomial[j][m] * cimag(moments[m]);
+    double place[NODES];
+    double re[NODES][NODES];
+    double im[NODES][NODES];
+    double largest = 0.0;
+    for (size_t i = 0; i < NODES; i++) {
+        place[i] = c[i < count ? i : 0];
+        largest = fmax(largest, place[i]);
+    }
+    bool small = square(z * largest) < LARGE * LARGE;
+    if (small)
+        find_small_kicks(z, place, re, im);
+    for (size_t i = 0; i < count; i++) {
+        double complex kick[NODES];
+        free_map(lambda, c[i] * h, to_q[i], to_v[i]);
+        double complex wave =
+            CMPLX(to_q[i][0] + creal(lambda) * to_q[i][1], cimag(lambda) * to_q[i][1]);
+        if (!small)
+            large_kicks(z, c[i], wave, kick);
+        for (int j = 0; j < NODES; j++) {
+            double real = small ? re[j][i] : creal(kick[j]);
+            double imaginary = small ? im[j][i] : cimag(kick[j]);
+            to_q[i][j + 2] = share * imaginary;
+            to_v[i][j + 2] = share * (creal(lambda) * imaginary + cimag(lambda) * real);
         }
-        to_q[j + 2] = share * imaginary;
-        to_v[j + 2] = share * (creal(lambda) * imaginary + cimag(lambda) * real);
     }
 }
 
-/* ---- Losses of a step ---- */
+void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
+                    double to_v[NODES + 2])
+{
+    double q[1][NODES + 2];
+    double v[1][NODES + 2];
+    oscillator_maps(omega, damping, h, 1, &c, q, v);
+    memcpy(to_q, q[0], sizeof q[0]);
+    memcpy(to_v, v[0], sizeof v[0]);
+}
 
-/* omega h below which the loss is found by quadrature. */
-static const double SLOW_ANGLE = 2.0;
+/* ---- Losses of a step ---- */
 
 /* Velocity on the step for one unit input: Re(wave e^(z s)) + sum_m slope[m] s^m, s = t/h. */
 struct velocity {
@@ -172,31 +252,57 @@ struct velocity {
     double slope[NODES];
 };
 
-/* Gauss and Legendre's ten points of 0 .. 1: the lower half with its weights, the others lie
- * opposite. */
-static const struct {
-    double place, weight;
-} GAUSS[] = {{0.013046735741414139961, 0.033335672154344068797},
-             {0.067468316655507744634, 0.074725674575290296573},
-             {0.16029521585048779688, 0.10954318125799102200},
-             {0.2833023029353764046, 0.13463335965499817755},
-             {0.42556283050918439456, 0.14776211235737643509}};
+/* Gauss and Legendre's twelve points of 0 .. 1 and their weights, four by four. */
+enum { GAUSS_QUADS = 3 };
+static const double GAUSS_PLACE[GAUSS_QUADS][NODES] = {
+    {0.009219682876640374655, 0.04794137181476257166, 0.1150486629028476565, 0.2063410228566912764},
+    {0.3160842505009099031, 0.4373832957442655423, 0.5626167042557344577, 0.6839157494990900969},
+    {0.7936589771433087236, 0.8849513370971523435, 0.9520586281852374283, 0.9907803171233596253}};
+static const double GAUSS_WEIGHT[GAUSS_QUADS][NODES] = {
+    {0.0235876681932559136, 0.05346966299765921548, 0.08003916427167311317, 0.1015837133615329609},
+    {0.1167462682691774044, 0.1245735229067013925, 0.1245735229067013925, 0.1167462682691774044},
+    {0.1015837133615329609, 0.08003916427167311317, 0.05346966299765921548, 0.0235876681932559136}};
 
-/* Slow or moderate: Gauss quadrature of v^2. Ten points leave (10!)^4/(21 (20!)^3) (2 omega h)^20
- * of it (Abramowitz and Stegun 25.4.30), 7e-19 at SLOW_ANGLE. */
-static void form_by_quadrature(double omega, double damping, double h,
-                               double form[LOSS_INPUTS][LOSS_INPUTS])
+/* Velocity at four places of a step for unit inputs, as oscillator_map, where |lambda h| < LARGE.
+ */
+static inline void small_velocities(double complex lambda, double h, const double c[NODES],
+                                    quad to_v[LOSS_INPUTS])
 {
-    enum { POINTS = 2 * (sizeof GAUSS / sizeof *GAUSS) };
-    for (size_t i = 0; i < POINTS; i++) {
-        double to_q[LOSS_INPUTS];
-        double to_v[LOSS_INPUTS];
-        double place = i % 2 ? 1.0 - GAUSS[i / 2].place : GAUSS[i / 2].place;
-        oscillator_map(omega, damping, h, place, to_q, to_v);
-        double weight = 2.0 * damping * omega * h * GAUSS[i / 2].weight;
-        for (int r = 0; r < LOSS_INPUTS; r++)
-            for (int s = 0; s <= r; s++)
-                form[r][s] += weight * to_v[r] * to_v[s];
+    double complex z = lambda * h;
+    double decay = creal(lambda);
+    double frequency = cimag(lambda);
+    struct waves moments[NODES];
+    small_moments(z, c, moments);
+    /* exp(z c) = 1 + z moments[0] */
+    quad sine = (creal(z) * moments[0].im + cimag(z) * moments[0].re) / frequency;
+    quad cosine = 1.0 + (creal(z) * moments[0].re - cimag(z) * moments[0].im);
+    to_v[0] = -(decay * decay + frequency * frequency) * sine;
+    to_v[1] = cosine + decay * sine;
+    struct waves kick[NODES];
+    small_kicks(moments, kick);
+    for (int j = 0; j < NODES; j++)
+        to_v[j + 2] = h / frequency * (decay * kick[j].im + frequency * kick[j].re);
+}
+
+/* Slow or moderate: Gauss quadrature of v^2. Twelve points leave (12!)^4/(25 (24!)^3) (2 omega
+ * h)^24 of it (Abramowitz and Stegun 25.4.30), 4e-20 at LARGE. */
+VECTOR_CLONES static void form_by_quadrature(double omega, double damping, double h,
+                                             double form[LOSS_INPUTS][LOSS_INPUTS])
+{
+    double complex lambda = oscillator_lambda(omega, damping);
+    for (int i = 0; i < GAUSS_QUADS; i++) {
+        quad to_v[LOSS_INPUTS];
+        quad weight;
+        small_velocities(lambda, h, GAUSS_PLACE[i], to_v);
+        memcpy(&weight, GAUSS_WEIGHT[i], sizeof weight);
+        weight *= 2.0 * damping * omega * h;
+        for (int r = 0; r < LOSS_INPUTS; r++) {
+            quad weighed = weight * to_v[r];
+            for (int s = 0; s <= r; s++) {
+                quad part = weighed * to_v[s];
+                form[r][s] += (part[0] + part[1]) + (part[2] + part[3]);
+            }
+        }
     }
 }
 
@@ -272,7 +378,7 @@ void oscillator_loss_form(double omega, double damping, double h,
 {
     memset(form, 0, sizeof(double[LOSS_INPUTS][LOSS_INPUTS]));
     /* the particular solution cancels against the wave like (omega h)^-4 for slow oscillators */
-    if (omega * h < SLOW_ANGLE)
+    if (omega * h < LARGE)
         form_by_quadrature(omega, damping, h, form);
     else
         form_closed(omega, damping, h, form);
@@ -282,9 +388,6 @@ void oscillator_loss_form(double omega, double damping, double h,
 }
 
 /* ---- Series for slow oscillators ---- */
-
-/* The four nodes together. */
-typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
 
 /* Angles below this: the terms fall from the first on, without cancellation. */
 static const double LARGEST = 3.0;

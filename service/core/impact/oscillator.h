@@ -7,6 +7,7 @@
 
 #include <complex.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "impact/collocation.h"
 
@@ -31,6 +32,10 @@ void oscillator_moments(double complex z, double c, double complex moments[NODES
  * that order. */
 void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
                     double to_v[NODES + 2]);
+
+/* The same at `count` <= NODES places at once. */
+void oscillator_maps(double omega, double damping, double h, size_t count, const double *c,
+                     double (*to_q)[NODES + 2], double (*to_v)[NODES + 2]);
 
 enum { LOSS_INPUTS = NODES + 2 };
 

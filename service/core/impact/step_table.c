@@ -240,27 +240,28 @@ static void fill_short(struct step_table *table, double omega, double h, size_t 
 /* Any mode on any step. */
 static void fill_mode(struct step_table *table, const struct oscillators *set, double h, size_t k)
 {
-    double to_q[NODES + 2];
-    double to_v[NODES + 2];
+    double to_q[NODES][NODES + 2];
+    double to_v[NODES][NODES + 2];
     double *response = table->response + k * RESPONSE_TERMS;
     /* at the nodes: by the motion before, and by the forces at the nodes */
+    oscillator_maps(set->omega[k], set->damping[k], h, NODES, collocation.node, to_q, to_v);
     for (int i = 0; i < NODES; i++) {
-        oscillator_map(set->omega[k], set->damping[k], h, collocation.node[i], to_q, to_v);
-        table->node_q[i][k] = to_q[0];
-        table->node_v[i][k] = to_q[1];
+        table->node_q[i][k] = to_q[i][0];
+        table->node_v[i][k] = to_q[i][1];
         for (int j = 0; j < NODES; j++)
-            response[i * NODES + j] = to_q[j + 2];
+            response[i * NODES + j] = to_q[i][j + 2];
     }
     /* at the end */
-    oscillator_map(set->omega[k], set->damping[k], h, 1.0, to_q, to_v);
-    table->end_qq[k] = to_q[0];
-    table->end_qv[k] = to_q[1];
-    table->end_vq[k] = to_v[0];
-    table->end_vv[k] = to_v[1];
+    const double end = 1.0;
+    oscillator_maps(set->omega[k], set->damping[k], h, 1, &end, to_q, to_v);
+    table->end_qq[k] = to_q[0][0];
+    table->end_qv[k] = to_q[0][1];
+    table->end_vq[k] = to_v[0][0];
+    table->end_vv[k] = to_v[0][1];
     for (int j = 0; j < NODES; j++) {
-        response[NODES * NODES + j] = to_q[j + 2];
-        table->force_q[j][k] = to_q[j + 2];
-        table->force_v[j][k] = to_v[j + 2];
+        response[NODES * NODES + j] = to_q[0][j + 2];
+        table->force_q[j][k] = to_q[0][j + 2];
+        table->force_v[j][k] = to_v[0][j + 2];
     }
     /* the damping loss */
     if (set->most_damping > 0.0) {

@@ -44,8 +44,10 @@ static void tables_hold_the_maps(void **state)
             for (int i = 0; i < NODES; i++) {
                 oscillator_map(omegas[k], damping[k], h, collocation.node[i], to_q, to_v);
                 assert_true(table->node_q[i][k] == to_q[0] && table->node_v[i][k] == to_q[1]);
+                /* places together have the series of the one that needs most terms */
                 for (int j = 0; j < NODES; j++)
-                    assert_true(response[i * NODES + j] == to_q[2 + j]);
+                    near(response[i * NODES + j], to_q[2 + j],
+                         1e-15 * h * fmin(h, 1.0 / omegas[k]));
             }
             oscillator_map(omegas[k], damping[k], h, 1.0, to_q, to_v);
             assert_true(table->end_qq[k] == to_q[0] && table->end_qv[k] == to_q[1]);
