@@ -15,6 +15,7 @@ enum percuss_status complete_body_make(const struct body *body, struct complete_
         .radius = solid.radius,
         .length = solid.length,
         .material = body->material,
+        .rate = body->yield_rate,
     };
     if (solid.form != SOLID_BALL && solid.form != SOLID_CYLINDER)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,

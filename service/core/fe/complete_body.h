@@ -16,6 +16,7 @@ struct complete_body {
     enum complete_shape shape;
     double radius, length; /* m; length of a cylinder only */
     struct material material;
+    struct yield_rate rate; /* each point has the yield stress of its own rate of plastic strain */
 };
 
 /* A sphere, a free rod with flat ends, a compact cylinder hit on its end, or a block hit on its

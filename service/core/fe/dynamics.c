@@ -254,6 +254,7 @@ static struct plastic_block *free_lane(struct dynamics *dynamics, struct dynamic
     }
     struct plastic_block *block = &level->plastic[level->plastics++];
     clear_lanes(block->node, block->element, dynamics->nodes);
+    block->rate = dynamics->body[body].rate;
     *lane = 0;
     return block;
 }

@@ -25,8 +25,9 @@ enum { DYNAMICS_LEVELS = 16, DYNAMICS_BODIES = 2 };
 struct dynamics_body {
     const struct mesh *mesh;
     struct material material;
-    double mass; /* kg; a mesh of straight edges is scaled to it */
-    size_t fine; /* contact nodes from the axis on with elements of the smallest step */
+    struct yield_rate rate; /* of its points' yield stress, each by its own strain */
+    double mass;            /* kg; a mesh of straight edges is scaled to it */
+    size_t fine;            /* contact nodes from the axis on with elements of the smallest step */
 };
 
 struct dynamics_level {

@@ -32,6 +32,8 @@ struct plastic_block {
     double shear[FE_LANES], yield[FE_LANES], hardening[FE_LANES];
     double strain[QUAD_POINTS][3][FE_LANES]; /* plastic: rr, zz, gamma rz; tt is -rr - zz */
     double accumulated[QUAD_POINTS][FE_LANES];
+    double raised[QUAD_POINTS][FE_LANES]; /* work of flow by the rate's part of the stress, J/m^3 */
+    struct yield_rate rate;               /* the caller's, of all four */
     uint32_t node[QUAD_NODES][FE_LANES];
     uint32_t element[FE_LANES];
 };
@@ -47,7 +49,8 @@ void plastic_block_put(struct plastic_block *block, size_t lane, const struct qu
 void elastic_block_move(struct elastic_block *to, size_t to_lane, struct elastic_block *from,
                         size_t from_lane, uint32_t empty);
 
-/* v -= step x force(y) for `count` blocks; plastic ones flow (radial return, total strains). */
+/* v -= step x force(y) for `count` blocks; plastic ones flow (radial return, total strains; with
+ * a rate, that of a step). */
 void elastic_blocks_kick(const struct elastic_block *blocks, size_t count, const double *y,
                          double *v, double step);
 void plastic_blocks_kick(struct plastic_block *blocks, size_t count, const double *y, double *v,

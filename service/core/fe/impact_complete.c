@@ -341,6 +341,7 @@ static enum percuss_status complete_begin(const struct complete_problem *problem
         run->compliance[b] = vibration_compliance(bodies[b], patch);
         parts[b] = (struct dynamics_body){.mesh = &run->mesh[b],
                                           .material = bodies[b]->material,
+                                          .rate = bodies[b]->rate,
                                           .mass = run->mass[b],
                                           .fine = nodes_within(&run->mesh[b], PAIR_REACH * side)};
     }

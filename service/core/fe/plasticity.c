@@ -47,6 +47,38 @@ void plastic_law_moduli(const struct plastic_law *law,
     moduli(law->bulk, law->shear, 0.0, none, matrix);
 }
 
+/* Rounds of Newton's method, and the change of the unknown after which the root is found. */
+enum { INCREMENT_ROUNDS = 60 };
+static const double INCREMENT_FOUND = 1e-12;
+
+double plasticity_increment(const struct plastic_law *law, const struct yield_rate *stated,
+                            double accumulated, double trial, double step)
+{
+    /* without the rate: more than with it, and all of it while the stress is not raised */
+    double yield = law->yield + law->hardening * accumulated;
+    double most = (trial - yield) / (3.0 * law->shear + law->hardening);
+    double raise = yield_rate_factor(stated, most / step) - 1.0;
+    if (!(raise > 0.0))
+        return most;
+    /* The unknown is by how much the stress is raised, of which the rate is a convex function (for
+     * exponents of 1 and more): from above Newton's method comes down to the root, beginning where
+     * the excess alone is the elastic part or the raised stress. */
+    raise = fmin(raise, trial / yield - 1.0);
+    double slope;
+    for (int i = 0; i < INCREMENT_ROUNDS; i++) {
+        double increment = step * yield_rate_at(stated, raise, &slope);
+        slope *= step;
+        double stress = yield + law->hardening * increment;
+        double over = 3.0 * law->shear * increment + stress * (1.0 + raise) - trial;
+        double change =
+            over / ((3.0 * law->shear + law->hardening * (1.0 + raise)) * slope + stress);
+        raise = fmax(raise - change, 0.0);
+        if (fabs(change) <= INCREMENT_FOUND * (1.0 + raise))
+            break;
+    }
+    return step * yield_rate_at(stated, raise, &slope);
+}
+
 bool plasticity_return(const struct plastic_law *law, const struct plastic_state *before,
                        const double strain[STRESS_COMPONENTS], struct plastic_state *after,
                        double stress[STRESS_COMPONENTS],

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "model/material.h"
+#include "model/yield_rate.h"
 
 enum { STRESS_COMPONENTS = 4 };
 
@@ -37,6 +38,13 @@ bool plasticity_return(const struct plastic_law *law, const struct plastic_state
                        const double strain[STRESS_COMPONENTS], struct plastic_state *after,
                        double stress[STRESS_COMPONENTS],
                        double tangent[STRESS_COMPONENTS * STRESS_COMPONENTS]);
+
+/* Increment of the accumulated strain in a step (s) whose trial stress has the equivalent `trial`
+ * beyond yield (Pa), where the yield stress grows with the rate of this strain: the root of
+ * trial - 3 G increment = (yield + hardening (accumulated + increment)) factor(increment / step),
+ * backward Euler in the rate too. `stated` depends on the rate. */
+double plasticity_increment(const struct plastic_law *law, const struct yield_rate *stated,
+                            double accumulated, double trial, double step);
 
 /* Elastic moduli, row-major. */
 void plastic_law_moduli(const struct plastic_law *law,

@@ -28,4 +28,12 @@ static inline bool yield_rate_is_stated(const struct yield_rate *stated)
 /* Yield stress at a rate of strain (1/s) over that of a slow test; >= 1. */
 double yield_rate_factor(const struct yield_rate *stated, double rate);
 
+/* Slope of the factor's logarithm over that of the rate, 0 <= slope <= 1, where the stress depends
+ * on the rate; up to the reference of a coefficient that just beyond it. */
+double yield_rate_sensitivity(const struct yield_rate *stated, double rate);
+
+/* The rate (1/s) at which that factor is 1 + raise, for a raise >= 0 of a yield stress that depends
+ * on the rate: the reference for a raise of 0 by the coefficient. `slope`: its derivative. */
+double yield_rate_at(const struct yield_rate *stated, double raise, double *slope);
+
 #endif

@@ -138,10 +138,7 @@ static enum percuss_status complete_make(const struct problem *problem,
     struct complete_body *targets[2] = {&complete->a, &complete->b};
     enum percuss_status status = complete_check_options(problem->request, fault);
     for (int which = 0; !status && which < 2; which++) {
-        const struct contact_side *side = &problem->sides[0][which];
-        status = complete_body_make(problem->bodies[side->body], targets[which], fault);
-        /* at the rate of the impact */
-        targets[which]->material.yield = side->material.yield;
+        status = complete_body_make(problem_body(problem, 0, which), targets[which], fault);
         if (!status)
             status = complete_check_side(problem, which, fault);
     }
@@ -234,11 +231,15 @@ static void complete_fill_model(const struct complete_convergence *convergence,
              "complete finite elements, explicit dynamics, no modes: %u elements across the "
              "contact radius, %zu in all, %zu of them plastic, %zu steps; mean of %u places of the "
              "nodes "
-             "against the patch's rim; limit of the restitution %.5f, estimated error %.1g%s",
+             "against the patch's rim; limit of the restitution %.5f, estimated error %.1g%s%s",
              convergence->cells, from->elements, from->plastic_elements, from->steps,
              finest->phases, convergence->restitution, convergence->error,
              body_solid(bodies[0]).approximate || body_solid(bodies[1]).approximate
                  ? "; the block is taken as a cylinder of the same section"
+                 : "",
+             yield_rate_is_stated(&bodies[0]->yield_rate) ||
+                     yield_rate_is_stated(&bodies[1]->yield_rate)
+                 ? "; each point yields at the stress of its own rate of strain"
                  : "");
     /* the work of closing nodes (some 1e-7) is the mesh's, and left in the closure */
     result->energy = (struct impact_energy){

@@ -13,6 +13,7 @@ static struct body made(struct body body)
 {
     struct fault fault = {""};
     body.material = aluminium;
+    body.yield_rate = (struct yield_rate){.reference = 40.0, .exponent = 5.0};
     strcpy(body.id, "one");
     if (body_complete(&body, &fault) != PERCUSS_OK)
         fail_msg("%s", fault.text);
@@ -38,6 +39,7 @@ static void keeps_size_mass_and_material(void **unused)
                                                           : M_PI * r * r * complete.length;
         assert_true(fabs(volume * 2700.0 / bodies[i].mass - 1.0) < 1e-12);
         assert_true(complete.material.yield == 205e6 && complete.material.tangent == 1e9);
+        assert_true(complete.rate.reference == 40.0 && complete.rate.exponent == 5.0);
         assert_true((complete.shape == COMPLETE_SPHERE) == (i == 0));
     }
 }

@@ -30,9 +30,14 @@ static int set_up(void **state)
         mesh_cylinder(ROD_RADIUS, ROD_LENGTH, &grade, &pair.mesh[1], &fault) != PERCUSS_OK)
         return -1;
     struct dynamics_body body[2] = {
-        {&pair.mesh[0], steel, steel.density * 4.0 / 3.0 * M_PI * pow(SPHERE_RADIUS, 3), 8},
-        {&pair.mesh[1], aluminium, aluminium.density * M_PI * ROD_RADIUS * ROD_RADIUS * ROD_LENGTH,
-         8}};
+        {.mesh = &pair.mesh[0],
+         .material = steel,
+         .mass = steel.density * 4.0 / 3.0 * M_PI * pow(SPHERE_RADIUS, 3),
+         .fine = 8},
+        {.mesh = &pair.mesh[1],
+         .material = aluminium,
+         .mass = aluminium.density * M_PI * ROD_RADIUS * ROD_RADIUS * ROD_LENGTH,
+         .fine = 8}};
     if (dynamics_create(body, 0.75, &pair.arena, &pair.dynamics, &fault) != PERCUSS_OK)
         return -1;
     pair.before = malloc(2 * pair.dynamics.nodes * sizeof(double));

@@ -192,12 +192,94 @@ static void plastic_fours_flow_like_one_point(void **unused)
     near_scaled(lost, expected, expected, 1e-11);
 }
 
+/* Pulls the row at a rate until `end`, its volume kept; the last forces (times -step) are v.
+ * Returns the work of all steps, each by the forces at its end. */
+static double pull(struct plastic_block *plastic, double rate, double step, double end, double *v)
+{
+    _Alignas(32) double y[2 * (NODES + 1)] = {0.0};
+    double work = 0.0;
+    for (double strain = 0.0; strain < end; strain += rate * step) {
+        double more[2 * NODES];
+        memset(v, 0, 2 * (NODES + 1) * sizeof *v);
+        for (int n = 0; n < NODES; n++) {
+            more[2 * n] = -0.5 * rate * step * at[n][0] / scale[n];
+            more[2 * n + 1] = rate * step * at[n][1] / scale[n];
+        }
+        for (int i = 0; i < 2 * NODES; i++)
+            y[i] += more[i];
+        plastic_blocks_kick(plastic, 1, y, v, step);
+        for (int i = 0; i < 2 * NODES; i++)
+            work -= v[i] / step * more[i];
+    }
+    return work;
+}
+
+/* Forces of the row under the deviator of a uniaxial stress. Returns its volume. */
+static double pulled_forces(double stress, double *force)
+{
+    const double deviator[4] = {-stress / 3.0, 2.0 / 3.0 * stress, -stress / 3.0, 0.0};
+    double volume = 0.0;
+    for (int e = 0; e < 3; e++) {
+        struct quad quad;
+        uint32_t node[4];
+        double s[4], f[8] = {0.0};
+        element_of(e, &quad, node, s);
+        for (int p = 0; p < 4; p++) {
+            quad_add_force(&quad, p, deviator, f);
+            volume += quad.volume[p];
+        }
+        for (int n = 0; n < 8; n++)
+            force[2 * node[n / 2] + n % 2] += f[n] * s[n / 2];
+    }
+    return volume;
+}
+
+/* A bar of these elements that is pulled at a constant rate: once it flows, its equivalent stress
+ * is the yield stress of that rate, to which its forces and its work belong. */
+static void a_pulled_bar_has_the_stress_of_its_rate(void **unused)
+{
+    (void)unused;
+    static const struct yield_rate stated[] = {{.reference = 40.0, .exponent = 5.0},
+                                               {.reference = 1.0, .coefficient = 0.05}};
+    static struct elastic_block elastic;
+    static struct plastic_block plastic;
+    const double rate = 300.0, step = 1e-7, end = 0.021; /* 700 steps */
+    struct plastic_law law = plastic_law_make(&metal);
+    for (size_t i = 0; i < sizeof stated / sizeof *stated; i++) {
+        _Alignas(32) double v[2 * (NODES + 1)];
+        double force[2 * (NODES + 1)] = {0.0};
+        fill(&elastic, &plastic);
+        plastic.rate = stated[i];
+        double work = pull(&plastic, rate, step, end - 0.5 * rate * step, v);
+        /* of the strain's rate the elastic part has what hardens: 1 / (1 + H factor / 3 G) flows */
+        double factor = 1.0;
+        for (int round = 0; round < 20; round++)
+            factor = yield_rate_factor(&stated[i],
+                                       rate / (1.0 + law.hardening * factor / (3.0 * law.shear)));
+        double path = plastic.accumulated[0][0];
+        double stress = (law.yield + law.hardening * path) * factor;
+        near_relative(path, end - stress / (3.0 * law.shear), 1e-6);
+        double volume = pulled_forces(stress, force), largest = 0.0;
+        for (int n = 0; n < 2 * NODES; n++)
+            largest = fmax(largest, fabs(force[n]));
+        for (int n = 0; n < 2 * NODES; n++)
+            near_scaled(v[n] / step, -force[n], largest, 1e-6);
+        /* all work has gone into flow or is stored, as shear alone; a step's is taken at its end */
+        double lost = 0.0, unused_energy = 0.0;
+        _Alignas(32) double still[2 * (NODES + 1)] = {0.0};
+        plastic_block_energy(&plastic, still, &unused_energy, &lost);
+        near_relative(lost + volume * stress * stress / (6.0 * law.shear), work, 1e-3);
+        assert_true(lost > 1.1 * volume * path * (law.yield + 0.5 * law.hardening * path));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_fours_are_stiffness_times_displacement),
         cmocka_unit_test(the_limit_excludes_yield),
         cmocka_unit_test(plastic_fours_flow_like_one_point),
+        cmocka_unit_test(a_pulled_bar_has_the_stress_of_its_rate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
 static const struct material aluminium = {"al", 70e9, 0.33, 2700.0, INFINITY, 0.0};
+static const struct yield_rate any_rate; /* yield stresses that do not depend on it */
 static const struct material glass = {"glass", 48e9, 0.20, 2800.0, INFINITY, 0.0};
 
 static struct complete_problem sphere_on_rod(unsigned cells)
@@ -48,14 +49,14 @@ static void spheres_and_a_block_follow_hertz(void **unused)
         struct complete_body a, b;
         double speed, radius, mass, allowed;
     } cases[] = {
-        {{COMPLETE_SPHERE, 0.01, 0.0, glass},
-         {COMPLETE_SPHERE, 0.01, 0.0, glass},
+        {{COMPLETE_SPHERE, 0.01, 0.0, glass, any_rate},
+         {COMPLETE_SPHERE, 0.01, 0.0, glass, any_rate},
          0.1,
          0.005,
          2800.0 * 2.0 / 3.0 * M_PI * 1e-6,
          0.01},
-        {{COMPLETE_SPHERE, 0.015, 0.0, steel},
-         {COMPLETE_CYLINDER, 0.1, 0.1, aluminium},
+        {{COMPLETE_SPHERE, 0.015, 0.0, steel, any_rate},
+         {COMPLETE_CYLINDER, 0.1, 0.1, aluminium, any_rate},
          0.3,
          0.015,
          1.0 / (1.0 / (7800.0 * 4.0 / 3.0 * M_PI * 3.375e-6) + 1.0 / (2700.0 * M_PI * 1e-3)),
@@ -161,6 +162,28 @@ static void soft_rod_rebounds_less(void **unused)
     struct complete_result hard = solved(&problem);
     assert_true(hard.restitution > ideal.restitution + 0.02 && hard.restitution < 0.62);
     near(hard.energy.closure, 0.0, 1e-4 * hard.energy.available);
+}
+
+/* Where each point has the yield stress of its own rate the body rebounds faster, and no energy is
+ * missing. */
+static void the_rate_of_each_point_counts(void **unused)
+{
+    (void)unused;
+    struct complete_problem problem = sphere_on_rod(4);
+    problem.b.material.yield = 205e6;
+    double slow = solved(&problem).restitution;
+    problem.b.rate = (struct yield_rate){.reference = 40.0, .exponent = 5.0};
+    struct complete_result own = solved(&problem);
+    near(own.energy.closure, 0.0, 1e-4 * own.energy.available);
+    assert_true(own.restitution > slow + 0.05);
+    assert_true(own.energy.plastic > 0.05 * own.energy.available);
+    /* one that is the same, to 0.1 %, at all rates from 1 to 1e4 1/s is that of a harder body */
+    problem.b.rate = (struct yield_rate){.reference = 1e-9, .coefficient = 1e-4};
+    double factor = yield_rate_factor(&problem.b.rate, 100.0);
+    double level = solved(&problem).restitution;
+    problem.b.rate = (struct yield_rate){0};
+    problem.b.material.yield *= factor;
+    near(level, solved(&problem).restitution, 1e-3);
 }
 
 /* A sphere that yields, without hardening: the steps, as long as elements are wide, leave 1.2e-3 of
@@ -298,6 +321,7 @@ int main(void)
         cmocka_unit_test(spheres_and_a_block_follow_hertz),
         cmocka_unit_test(rod_agrees_with_waves_and_matched_compliance),
         cmocka_unit_test(soft_rod_rebounds_less),
+        cmocka_unit_test(the_rate_of_each_point_counts),
         cmocka_unit_test(coarse_steps_are_no_reason_to_refuse),
         cmocka_unit_test(histories_without_flow_change_nothing),
         cmocka_unit_test(repeats_bit_by_bit),

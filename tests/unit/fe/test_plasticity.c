@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/fe/plasticity.c: uniaxial curve, shear, unloading, tangent against differences.
+/* Mirrors service/core/fe/plasticity.c: uniaxial curve, shear, unloading, tangent against
+ * differences.
  */
 #include <string.h>
 
@@ -109,6 +110,30 @@ static void tangent_is_the_derivative(void **unused)
     }
 }
 
+/* the increment fulfils its equation, for rates from far below to far above the reference */
+static void increments_have_the_stress_of_their_rate(void **unused)
+{
+    (void)unused;
+    static const struct yield_rate stated[] = {{.reference = 40.0, .exponent = 5.0},
+                                               {.reference = 6500.0, .exponent = 1.0},
+                                               {.reference = 1.0, .coefficient = 0.014},
+                                               {.reference = 1.0, .coefficient = 0.5},
+                                               {.reference = 1e-9, .exponent = 20.0}};
+    struct plastic_law law = plastic_law_make(&hardening);
+    double path = 0.01, yield = law.yield + law.hardening * path;
+    for (size_t i = 0; i < sizeof stated / sizeof *stated; i++)
+        for (double step = 1e-10; step < 1e4; step *= 100.0)
+            for (double over = 1e-6; over < 20.0; over *= 7.0) {
+                double trial = (1.0 + over) * yield;
+                double increment = plasticity_increment(&law, &stated[i], path, trial, step);
+                double factor = yield_rate_factor(&stated[i], increment / step);
+                near_relative(3.0 * law.shear * increment +
+                                  (yield + law.hardening * increment) * factor,
+                              trial, 1e-9);
+                assert_true(increment >= 0.0);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +141,7 @@ int main(void)
         cmocka_unit_test(ideal_shear_stays_at_yield),
         cmocka_unit_test(elastic_matches_hooke),
         cmocka_unit_test(tangent_is_the_derivative),
+        cmocka_unit_test(increments_have_the_stress_of_their_rate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

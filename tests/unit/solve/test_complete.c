@@ -13,8 +13,11 @@ static struct lab *shapes(void)
     soft.yield = 205e6;
     struct body tipped = make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0);
     tipped.tip_radius = 0.02;
+    struct body by_rate = make_sphere(soft, 0.015);
+    by_rate.yield_rate = (struct yield_rate){.reference = 6500.0, .exponent = 4.0};
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "soft-ball", make_sphere(soft, 0.015));
+    lab_add(lab, "by-rate", by_rate);
     lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "tipped", tipped);
@@ -98,6 +101,15 @@ static void two_spheres_dissipate_by_flow_only(void **state)
     double lost = fabs(result.energy.closure) / result.energy.available;
     measured_relative("steps", changed * changed - e * e, lost, 1e-6);
     assert_true(result.restitution_time > 0.0);
+    assert_null(strstr(result.reason, "rate of strain"));
+    /* each point by its own rate: some 4 1/s raise the yield 1.16 times, and e ~ yield^(5/8) */
+    request = strike(sphere_spot("ball", 0.015), sphere_spot("by-rate", 0.015), 0.3);
+    request.options.contact_model = PERCUSS_CONTACT_COMPLETE_FE;
+    request.options.tolerance = 0.02;
+    lab_solve(lab, &request, &result);
+    measured("by the rate", result.contacts[0].restitution, e * pow(1.16, 0.625), 0.03);
+    assert_true(result.contacts[0].restitution > e + 0.02);
+    assert_non_null(strstr(result.reason, "its own rate of strain"));
     lab_free(lab);
 }
 
