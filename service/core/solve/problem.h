@@ -40,16 +40,12 @@ struct contact_friction {
     } sides[2][2]; /* [tangent][a, b] */
 };
 
-/* The rate of strain at a contact, see rate.h. That which counts is known roughly: Tabor's strain
- * is one of several in use, by a factor of two; and the metal flows ever more slowly as the
- * indentation becomes largest, where the force that springs back is decided. Complete finite
- * elements of mild steel with the rate of each point have the restitution of a mean rate five to
- * nine times as low (docs/lab/contact-models.md). */
+/* The rate of strain at a contact, see rate.h. */
 struct contact_rate {
-    double mean;       /* of strain while the contact is loaded, 1/s; 0: no yield depends on it */
+    double rate[2];    /* that counts for a and b, 1/s; 0: their yield does not depend on it */
     double raised[2];  /* yield stress of a and b over the stated one */
     double slow, fast; /* that of the body that yields at the least and the largest likely rate,
-                          over the one in use */
+                          over the one in use; 1: it does not depend on it */
     double by_speed;   /* by how much its logarithm grows with that of all speeds */
 };
 

@@ -10,8 +10,8 @@
 #include "solve/problem.h"
 
 /* Raises the yield stresses of both bodies at a contact (their materials there) to those at the
- * mean rate of a blow of the rigid masses at a speed (m/s); where that is not > 0, others strike
- * the contact: at the fastest approach of all. */
+ * rates that count (contact/strain_rate.h) in a blow of the rigid masses at a speed (m/s); where
+ * that is not > 0, others strike the contact: at the fastest approach of all. */
 struct contact_rate rate_raise(struct problem *problem, size_t contact, double speed);
 
 /* The laws of a scene where all its speeds are `factor` times as large. PERCUSS_OK or

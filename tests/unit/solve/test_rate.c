@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/core/solve/rate.c: contacts yield at the stress of the impact's strain rate, and
- * the model's error holds what a tenth of that rate or twice it changes. */
+ * the model's error holds what half or twice the rate changes. */
 #include "contact/law_closed_form.h"
 #include "contact/strain_rate.h"
 #include "physics/support.h"
@@ -45,15 +45,15 @@ static double restitution(struct lab *lab, const struct solve_request *request)
 /* Of the ball on the wall, the strain rate and the factor. */
 static double factor_at(struct lab *lab, double speed, double *rate)
 {
-    double factors[2];
+    struct strain_rate found[2];
     const struct material *m[2] = {&lab->bodies[0].material, &lab->bodies[3].material};
     struct hertz_contact hertz =
         hertz_contact_make(hertz_effective_modulus(m[0], m[1]), 0.5 / 0.005, 0.5 / 0.005);
     static const struct yield_rate none;
     struct strain_rate_blow one = {speed, 0.5 * lab->bodies[0].mass * speed * speed};
-    *rate = strain_rate_of(&hertz, m, (const struct yield_rate *const[]){&none, &by_rate}, &one,
-                           factors);
-    return factors[1];
+    strain_rate_of(&hertz, m, (const struct yield_rate *const[]){&none, &by_rate}, &one, found);
+    *rate = found[1].rate;
+    return found[1].factor;
 }
 
 static void a_wall_answers_like_one_that_yields_as_late(void **state)
@@ -87,8 +87,8 @@ static void a_wall_answers_like_one_that_yields_as_late(void **state)
     lab_free(lab);
 }
 
-/* A rate that is a tenth or twice as large stays within the bar, whose part it is: the larger
- * change of both. Besides that the bar is that of a wall that yields at this stress at all rates.
+/* Half or twice the rate stays within the bar, whose part it is: the larger change of both. Besides
+ * that the bar is that of a wall that yields at this stress at all rates.
  */
 static void the_bar_holds_other_rates(void **state)
 {
@@ -106,7 +106,7 @@ static void the_bar_holds_other_rates(void **state)
         bar -= result.restitution_model;
         lab_free(lab);
         double change = 0.0;
-        for (double times = 0.1; times < 4.0; times *= 20.0) {
+        for (double times = 0.5; times < 3.0; times *= 4.0) {
             lab = walls(yield_rate_factor(&by_rate, times * rate));
             change = fmax(change, fabs(restitution(lab, &raised) - e));
             lab_free(lab);
@@ -134,7 +134,8 @@ static void the_slope_by_speed_has_the_rate(void **state)
     faster = blow("raised", 0.502, 1e-9);
     double fixed = (restitution(lab, &faster) - restitution(lab, &slower)) / 0.004;
     measured("de/dv", slope, whole, 0.01 * fabs(whole));
-    assert_true(fabs(fixed - whole) > 0.1 * fabs(whole));
+    /* e falls as speed^(-1/4), and rises by 5/8 of a tenth of what the rate does, some v^(1/4) */
+    assert_true(fabs(fixed - whole) > 0.05 * fabs(whole));
     lab_free(lab);
 }
 

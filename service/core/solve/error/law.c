@@ -165,11 +165,11 @@ void law_error_parts(const struct problem *problem, size_t contact,
         by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
         by_roundness(problem, contact, history->contact_radius) +
         by_ellipse(&problem->hertz[contact]);
-    /* the mean rate of strain */
+    /* the one rate of strain in the place of each point's */
     const struct contact_rate *rate = &problem->contact_model.rates[contact];
     double depth = history->max_indentation;
     parts[LAW_ERROR_RATE] = 0.0;
-    if (rate->mean > 0.0)
+    if (rate->fast > 1.0)
         parts[LAW_ERROR_RATE] = fmax(fabs(rebound_with(&choice->plastic, depth, rate->slow) - 1.0),
                                      fabs(rebound_with(&choice->plastic, depth, rate->fast) - 1.0));
     /* the law itself, against its reference */
