@@ -163,12 +163,27 @@ void track_step(struct track *track, double time, double h, const struct track_v
     add_omitted(track, h, values);
 }
 
+/* Where the rate passes zero on a step, by a straight line between nodes; 1: nowhere. */
+static double turn_of(const double rate[NODES])
+{
+    const double *node = collocation.node;
+    for (int j = 0; j + 1 < NODES; j++)
+        if ((rate[j] < 0.0) != (rate[j + 1] < 0.0))
+            return node[j] + (node[j + 1] - node[j]) * rate[j] / (rate[j] - rate[j + 1]);
+    return 1.0;
+}
+
 void track_work(struct track *track, double h, const double *force, const double *rate)
 {
+    double power[NODES], sum = 0.0;
     for (int j = 0; j < NODES; j++) {
-        double work = h * collocation.weight[j] * force[j] * rate[j];
-        *(rate[j] < 0.0 ? &track->compressed : &track->released) += fabs(work);
+        power[j] = h * force[j] * rate[j];
+        sum += collocation.weight[j] * power[j];
     }
+    double before = turn_of(rate) < 1.0 ? collocation_integral(power, turn_of(rate)) : sum;
+    const double parts[2] = {before, sum - before};
+    for (int i = 0; i < 2; i++)
+        *(parts[i] < 0.0 ? &track->compressed : &track->released) += fabs(parts[i]);
 }
 
 void track_slide(struct track *track, double h, const double *normal, double (*const force)[NODES],
