@@ -329,6 +329,7 @@ struct strip {
     /* of the cells from `slips` up to `sticks`, where it begins to slip: the force, its limit, and
      * the part of the way that is left; what is left of the way, elastic */
     size_t slips, sticks;
+    size_t begins, begun; /* of them, those that stuck before */
     double x[STRIP], y[STRIP], limit[STRIP], left[STRIP], way[2][STRIP];
     /* the direction of the force there, that of the way, and the elastic force of the way over the
      * mean limit */
@@ -377,27 +378,33 @@ EACH_CELL void try_to_stick(const struct walk *walk, size_t n, const double *x, 
     strip->sticks = whole(end + LANES - 1);
 }
 
-/* Whether all cells that slip have slipped before and go on: they begin with the way. */
-EACH_CELL bool slip_goes_on(const struct walk *walk, const double *from, const double *x,
-                            const double *y, const struct strip *strip)
+/* Finds the cells from `begins` up to `begun` that begin to slip on the way. All others up to
+ * `closed` have slipped before and go on: they slip from the way's beginning. */
+EACH_CELL void find_begins(const struct walk *walk, size_t closed, const double *from,
+                           const double *x, const double *y, struct strip *strip)
 {
-    double begin = 0.0;
     for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
         double way = x[i] * walk->moved[0] + y[i] * walk->moved[1];
         double grown = strip->share[i] - from[i], square = from[i] * from[i];
         bool on = strip->stiffness[i] * way >= from[i] * grown &&
                   x[i] * x[i] + y[i] * y[i] - square >= -AT_LIMIT * square;
-        begin += on || !(strip->excess[i] > 0.0) ? 0.0 : 1.0;
+        strip->left[i] = on || !(strip->excess[i] > 0.0) ? 1.0 : 0.0;
     }
-    return begin == 0.0;
+    size_t first = strip->slips, end = whole(closed);
+    while (first < end && strip->left[first] == 1.0)
+        first++;
+    while (end > first && strip->left[end - 1] == 1.0)
+        end--;
+    strip->begins = whole(first);
+    strip->begun = whole(end + LANES - 1);
 }
 
 /* Where the forces reach their limits: |force + part way| = from + part grown, `way` elastic. Every
  * value is found, also those that do not count, so that a loop over cells needs no branch. */
-EACH_CELL void begin_slip(const struct walk *walk, const double *from, const double *x,
-                          const double *y, struct strip *strip)
+EACH_CELL void begin_slip(const struct walk *walk, size_t first, size_t end, const double *from,
+                          const double *x, const double *y, struct strip *strip)
 {
-    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
+    for (size_t i = whole(first); i < whole(end); i++) {
         double stiffness = strip->stiffness[i], grown = strip->share[i] - from[i];
         const double way[2] = {stiffness * walk->moved[0], stiffness * walk->moved[1]};
         double a = way[0] * way[0] + way[1] * way[1] - grown * grown;
@@ -592,10 +599,11 @@ VECTOR_CLONES static void walk_plane(const struct friction *friction, size_t clo
     const double *of = friction->over_ratio, over[3] = {of[0], of[1], of[2]};
     try_to_stick(&way, n, x, y, strip);
     if (strip->slips < strip->sticks) {
-        if (slip_goes_on(&way, from, x, y, strip))
-            go_on_slipping(from, x, y, strip);
-        else
-            begin_slip(&way, from, x, y, strip);
+        size_t edge = closed > strip->slips ? closed : strip->slips;
+        find_begins(&way, edge < strip->sticks ? edge : strip->sticks, from, x, y, strip);
+        go_on_slipping(from, x, y, strip);
+        begin_slip(&way, strip->begins, strip->begun, from, x, y, strip);
+        begin_slip(&way, edge, strip->sticks, from, x, y, strip);
         find_ways(kappa, &way, strip);
         for (size_t i = closed; i < n; i++)
             if (!(from[i] > 0.0) && strip->excess[i] > 0.0)
