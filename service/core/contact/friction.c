@@ -312,7 +312,8 @@ static inline double over_ratio(const double over[3], double x, double y, const 
 struct walk {
     double moved[2], turn; /* the angle that it turns by, rad */
     double force[2], lost;
-    double stuck, turning[2]; /* stiffnesses of cells that stick, and of forces that turn */
+    double stuck,
+        turning[3]; /* stiffnesses of cells that stick, and of forces that turn, xx, yy, xy */
 };
 
 /* Part of a loop over cells, which is vectorised as a whole. */
@@ -326,15 +327,15 @@ struct strip {
      * closed all the way and at the end; the square of its elastic force over its limit, > 0: it
      * slips */
     double share[STRIP], stiffness[STRIP], before[STRIP], after[STRIP], excess[STRIP];
-    /* of the cells from `slips` up to `sticks`, where it begins to slip: the force, its limit, and
-     * the part of the way that is left; what is left of the way, elastic */
-    size_t slips, sticks;
-    size_t begins, begun; /* of them, those that stuck before */
+    /* cells from `slips` up to `sticks` slip; from `begins` up to `begun` they stuck before */
+    size_t slips, sticks, begins, begun;
+    /* of those that slip, where it begins to: the force, its limit, and the part of the way that is
+     * left; what is left of the way, elastic */
     double x[STRIP], y[STRIP], limit[STRIP], left[STRIP], way[2][STRIP];
     /* the direction of the force there, that of the way, and the elastic force of the way over the
      * mean limit */
     double at[2][STRIP], along[2][STRIP], ratio[STRIP];
-    double turning[2][STRIP], lost[STRIP];
+    double turning[3][STRIP], lost[STRIP];
 };
 
 /* Sums in the same order for any vectors. */
@@ -378,8 +379,8 @@ EACH_CELL void try_to_stick(const struct walk *walk, size_t n, const double *x, 
     strip->sticks = whole(end + LANES - 1);
 }
 
-/* Finds the cells from `begins` up to `begun` that begin to slip on the way. All others up to
- * `closed` have slipped before and go on: they slip from the way's beginning. */
+/* Finds the cells up to `closed` that begin to slip on the way. All others have slipped before and
+ * go on: they slip from its beginning. */
 EACH_CELL void find_begins(const struct walk *walk, size_t closed, const double *from,
                            const double *x, const double *y, struct strip *strip)
 {
@@ -516,6 +517,7 @@ EACH_CELL void turn_forces(const struct walk *walk, struct strip *strip)
         bool slips = strip->excess[i] > 0.0;
         strip->turning[0][i] = slips ? turning * (1.0 - to_x * to_x) : 0.0;
         strip->turning[1][i] = slips ? turning * (1.0 - to_y * to_y) : 0.0;
+        strip->turning[2][i] = slips ? -turning * to_x * to_y : 0.0;
         strip->along[0][i] = strip->share[i] * to_x;
         strip->along[1][i] = strip->share[i] * to_y;
     }
@@ -615,6 +617,7 @@ VECTOR_CLONES static void walk_plane(const struct friction *friction, size_t clo
         walk->lost += sum_of(strip->lost + first, slipping);
         walk->turning[0] += sum_of(strip->turning[0] + first, slipping);
         walk->turning[1] += sum_of(strip->turning[1] + first, slipping);
+        walk->turning[2] += sum_of(strip->turning[2] + first, slipping);
     }
     take_ends(&way, n, x, y, strip);
     walk->stuck += sum_of(strip->stiffness, n);
@@ -765,16 +768,19 @@ static void from_axis(const struct friction *friction, const double at[2], doubl
     force[1] = friction->coefficient * (axis[1] * at[0] + axis[0] * at[1]);
 }
 
-/* The slope of the force by the displacement along each tangent. */
+/* The slopes of the force by the displacement. */
 static void find_slopes(struct friction *friction, const struct walk *walk)
 {
     const double *kappa = friction->ratio, *axis = friction->axis;
-    double first = axis[0] * axis[0], second = axis[1] * axis[1];
+    const double *turning = walk->turning;
+    double first = axis[0] * axis[0], second = axis[1] * axis[1], both = axis[0] * axis[1];
+    double x = first * turning[0] + second * turning[1] - 2.0 * both * turning[2];
+    double y = second * turning[0] + first * turning[1] + 2.0 * both * turning[2];
+    double between = both * (turning[0] - turning[1]) + (first - second) * turning[2];
     friction->stuck = walk->stuck;
-    friction->resists[0] =
-        kappa[0] * (walk->stuck + first * walk->turning[0] + second * walk->turning[1]);
-    friction->resists[1] =
-        kappa[2] * (walk->stuck + second * walk->turning[0] + first * walk->turning[1]);
+    friction->resists[0] = kappa[0] * (walk->stuck + x);
+    friction->resists[1] = kappa[2] * (walk->stuck + y);
+    friction->resists[2] = kappa[1] * walk->stuck + 0.5 * (kappa[0] + kappa[2]) * between;
 }
 
 /* The angle by which a way turns between its ends, of which the chord has the direction of its
@@ -787,6 +793,34 @@ static double turn_of(const double moved[2], const double rate[2])
     double with = moved[0] * rate[0] + moved[1] * rate[1];
     double across = moved[0] * rate[1] - moved[1] * rate[0];
     return with > 0.0 && squares > 0.0 ? 2.0 * across * with / squares : 0.0;
+}
+
+/* Between a way's curve and its chord, of indentation and displacement: the integral of d du along
+ * both. `rates`: at the end of the way times its time, of the indentation and the displacement. */
+static void find_area(double deeper, const double moved[2], double deepens, const double moves[2],
+                      double area[2])
+{
+    for (int j = 0; j < 2; j++)
+        area[j] = (deeper * moves[j] - deepens * moved[j]) / 6.0;
+}
+
+/* Where a contact slides throughout it loses by its limit, of which the cells take the mean of the
+ * ends along the chord (walk_plane, walk_line). What is missing: the way curves; cells that close
+ * on it grow with the square of what is left, so that their mean is a third and not the half; and
+ * what opens on it gives up its elastic energy alone (cell_open), not this third. Their force at
+ * the end where all are closed is half of the law's change of slope times the way. */
+static void correct_loss(const struct friction *friction, const struct span *span,
+                         const double area[2], struct walk *walk)
+{
+    double x = walk->force[0], y = walk->force[1], size = sqrt(x * x + y * y);
+    if (span->yielded || walk->stuck > 0.0 || !(size > 0.0))
+        return;
+    double deeper = span->to.indentation - span->from.indentation;
+    double force = 0.5 * (span->to.slope - span->from.slope) * deeper;
+    double missing = deeper > 0.0 ? -force / 6.0 : force / 3.0;
+    const double by[2] = {span->to.slope * area[0] + missing * walk->moved[0],
+                          span->to.slope * area[1] + missing * walk->moved[1]};
+    walk->lost = larger(walk->lost + over_ratio(friction->over_ratio, x, y, by) / size, 0.0);
 }
 
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
@@ -814,12 +848,15 @@ void friction_walk_curved(struct friction *friction, double indentation,
     if (friction->reached == 0)
         set_axis(friction, moved);
     to_axis(friction, moved, walk.moved);
+    double area[2] = {0.0, 0.0};
     if (rate) {
-        const double with[2] = {kappa[0] * rate[0] + kappa[1] * rate[1],
-                                kappa[1] * rate[0] + kappa[2] * rate[1]};
+        const double with[2] = {scale * (kappa[0] * rate[1] + kappa[1] * rate[2]),
+                                scale * (kappa[1] * rate[1] + kappa[2] * rate[2])};
         double heading[2];
         to_axis(friction, with, heading);
         walk.turn = part * turn_of(walk.moved, heading);
+        if (part == 1.0)
+            find_area(indentation - before, walk.moved, rate[0], heading, area);
     }
     if (before > 0.0 || indentation > 0.0) {
         struct span span = {.from = normal_at(friction, before)};
@@ -829,6 +866,7 @@ void friction_walk_curved(struct friction *friction, double indentation,
         span.is_short = !(way > SHORT * larger(span.to.indentation, span.from.indentation));
         walk_cells(friction, &span, &walk);
         friction->normal = span.to.force;
+        correct_loss(friction, &span, area, &walk);
     }
     friction->indentation = indentation;
     find_slopes(friction, &walk);

@@ -56,8 +56,8 @@ struct friction {
     double displacement[2];
     double normal;     /* force of the law there, N */
     double stuck;      /* sum of the stiffnesses of cells that stick, N/m, not times kappa */
-    double resists[2]; /* slope of the force by the displacement along each tangent, N/m: of cells
-                          that stick, and across the force of those that slip */
+    double resists[3]; /* slope of the force by the displacement along each tangent, N/m: of cells
+                          that stick, and across the force of those that slip; and between both */
     double lost;       /* by slip since friction_create, J */
 };
 
@@ -96,8 +96,8 @@ void friction_deepen(struct friction *friction, double deeper);
 void friction_walk(struct friction *friction, double indentation, const double displacement[2],
                    double force[2]);
 
-/* The same by a way that curves evenly and ends with this rate of the displacement, [2], in any
- * unit; NULL: straight. */
+/* The same by a way that curves evenly. `rate`, [3]: how far indentation and displacement would go
+ * in the time of the way at the rates of its end, m; NULL: straight. */
 void friction_walk_curved(struct friction *friction, double indentation,
                           const double displacement[2], const double *rate, double force[2]);
 

@@ -33,9 +33,9 @@ struct contact_step {
     double *together;              /* (contacts NODES)^2; NULL before a solution of all at once */
     double *approach, *end_force;
     double *base; /* [row]: plain friction: d of its tangents that the gaps leave out */
-    /* with friction: [row] forces of the round before, the last change of tangents' displacements,
-     * and their forces' relative change that ends the rounds */
-    double (*before)[NODES], (*change)[NODES];
+    /* with friction: [row] the last change of tangents' displacements, and their forces' relative
+     * change that ends the rounds */
+    double (*change)[NODES];
     double last_slide;
     struct friction_step *friction; /* NULL: without friction */
     struct arena *arena;

@@ -4,31 +4,9 @@
 #include "impact/friction_step.h"
 
 #include <math.h>
-
-#include "numeric/lagrange.h"
 #include <string.h>
 
-/* The start, the nodes and the end. */
-static const size_t INNER = NODES + 1, ALL = NODES + 2;
-
-static void set_point(struct friction_point *point, const double *place, size_t count, double s)
-{
-    lagrange_values(place, count, s, point->value);
-    lagrange_slopes(place, count, s, point->slope);
-}
-
-static void set_polynomials(struct friction_points *points)
-{
-    double place[NODES + 2] = {0.0};
-    for (int i = 0; i < NODES; i++)
-        place[i + 1] = collocation.node[i];
-    place[NODES + 1] = 1.0;
-    for (int i = 0; i < NODES; i++)
-        set_point(&points->to_node[i], place, INNER, place[i + 1]);
-    for (int i = 1; i < NODES; i++)
-        set_point(&points->to_middle[i - 1], place, INNER, 0.5 * (place[i] + place[i + 1]));
-    set_point(&points->to_end, place, ALL, 1.0);
-}
+#include "numeric/lagrange.h"
 
 /* The error of a sphere's tangential speed after the impact, over the coefficient's speed, is
  * 0.3/cells^2; the steps' own error goes with their accuracy, too. */
@@ -54,10 +32,12 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     }
     size_t cells = cells_for(accuracy);
     step->now = arena_take(arena, 3 * n, sizeof *step->now);
-    step->stuck = arena_take(arena, n, sizeof *step->stuck);
+    step->stuck = arena_take(arena, 2 * n, sizeof *step->stuck);
     step->points = arena_take(arena, 1, sizeof *step->points);
-    if (!step->now || !step->stuck || !step->points)
+    step->taken = arena_take(arena, 3 * n, sizeof *step->taken);
+    if (!step->now || !step->stuck || !step->points || !step->taken)
         return false;
+    step->across = step->stuck + n;
     step->along = step->now + n;
     step->after = step->along + n;
     for (size_t i = 0; i < n; i++) {
@@ -67,44 +47,70 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
             !friction_second(&step->after[i], &step->now[i], arena))
             return false;
     }
-    set_polynomials(step->points);
+    slip_points_make(step->points);
     return true;
 }
 
+/* The forces from a touch on, over the normal one: on a way in proportion kappa times the rates'
+ * ratio where no cell slips, and the coefficient where all do. */
+static void begin_taken(const struct scene_friction *friction, const double rate[3],
+                        double (*taken)[NODES])
+{
+    const double *kappa = friction->ratio;
+    double over = rate[0] > 0.0 ? 1.0 / rate[0] : 0.0;
+    double x = over * (kappa[0] * rate[1] + kappa[1] * rate[2]);
+    double y = over * (kappa[1] * rate[1] + kappa[2] * rate[2]);
+    double size = hypot(x, y);
+    double part = size > friction->coefficient ? friction->coefficient / size : 1.0;
+    for (int k = 0; k < NODES; k++) {
+        taken[0][k] = 1.0;
+        taken[1][k] = part * x;
+        taken[2][k] = part * y;
+    }
+}
+
 void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
-                         const double *depth)
+                         const double *rate, const double *depth)
 {
     if (step->plain) {
         coulomb_begin(&step->coulomb);
         return;
     }
+    step->level = 0;
     for (size_t i = 0; i < step->count; i++) {
-        size_t contact = scene->friction[i].contact;
+        size_t contact = scene->friction[i].contact, row = scene_tangent(scene, i);
+        const double rates[3] = {rate[contact], rate[row], rate[row + 1]};
         double none[2];
         friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
-        friction_walk(&step->now[i], fmin(d[contact], 0.0), d + scene_tangent(scene, i), none);
+        friction_walk(&step->now[i], fmin(d[contact], 0.0), d + row, none);
+        begin_taken(&scene->friction[i], rates, step->taken + 3 * i);
     }
 }
 
-/* Goes on along the way to a point, by its polynomials. */
-static void walk_to(struct friction *friction, const struct friction_way *way,
-                    const struct friction_point *point, bool with_end, double force[2])
+void friction_step_predict(const struct friction_step *step, const struct scene *scene, int level,
+                           double (*force)[NODES])
 {
-    double value[3], rate[3];
-    for (int r = 0; r < 3; r++) {
-        const double *nodes = way->nodes[r];
-        value[r] = point->value[0] * way->start[r];
-        rate[r] = point->slope[0] * way->start[r];
-        for (int j = 0; j < NODES; j++) {
-            value[r] += point->value[j + 1] * nodes[j];
-            rate[r] += point->slope[j + 1] * nodes[j];
-        }
-        if (with_end) {
-            value[r] += point->value[NODES + 1] * way->end[r];
-            rate[r] += point->slope[NODES + 1] * way->end[r];
+    const double *node = collocation.node, last[NODES] = {node[1], node[2], node[3], 1.0};
+    for (int k = 0; k < NODES; k++) {
+        double by[NODES];
+        lagrange_values(last, NODES, 1.0 + ldexp(node[k], step->level - level), by);
+        for (size_t i = 0; i < step->count; i++) {
+            const struct scene_friction *friction = &scene->friction[i];
+            size_t row = scene_tangent(scene, i);
+            double next[3];
+            for (int r = 0; r < 3; r++) {
+                const double *taken = step->taken[3 * i + r];
+                next[r] =
+                    (by[0] * taken[0] + by[1] * taken[1]) + (by[2] * taken[2] + by[3] * taken[3]);
+            }
+            double over = next[0] > 0.0 ? 1.0 / next[0] : 0.0;
+            double share = over * hypot(next[1], next[2]);
+            if (share > friction->coefficient)
+                over *= friction->coefficient / share;
+            for (size_t j = 0; j < 2; j++)
+                force[row + j][k] = over * next[1 + j] * force[friction->contact][k];
         }
     }
-    friction_walk_curved(friction, value[0], value + 1, rate + 1, force);
 }
 
 /* The solved normal force over that of the law at the solved indentation, which differ by what the
@@ -114,37 +120,67 @@ static double solved_share(const struct friction *friction, double normal)
     return normal > 0.0 && friction->normal > 0.0 ? normal / friction->normal : 1.0;
 }
 
-void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
-                         bool halved, const double normal[NODES], double (*force)[NODES],
-                         double (*stiffness)[NODES])
+/* Walks to the nodes, through the middles between two of them or not. Whether the contact slides
+ * throughout: no cell sticks at any node. */
+static bool walk_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
+                       bool halved, const double normal[NODES], double (*force)[NODES],
+                       double (*stiffness)[NODES])
 {
+    const struct slip_points *points = step->points;
     struct friction *along = &step->along[i];
+    struct slip_place now = slip_place_at(way, &points->start);
     double sum[2];
+    bool slides = true;
     friction_copy(along, &step->now[i]);
     for (int node = 0; node < NODES; node++) {
         if (halved && node > 0)
-            walk_to(along, way, &step->points->to_middle[node - 1], false, sum);
-        walk_to(along, way, &step->points->to_node[node], false, sum);
+            slip_walk(along, way, &points->middle[node - 1], &now, sum);
+        slip_walk(along, way, &points->node[node], &now, sum);
         double share = solved_share(along, normal[node]);
         for (int j = 0; j < 2; j++) {
             force[j][node] = share * sum[j];
             stiffness[j][node] = along->resists[j];
         }
+        step->across[i][node] = along->resists[2];
         step->stuck[i][node] = along->stuck;
+        slides = slides && along->stuck == 0.0;
     }
+    return slides;
+}
+
+bool friction_step_slid(const struct friction_step *step, size_t i)
+{
+    return step->now[i].stuck == 0.0;
+}
+
+void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
+                         const double normal[NODES], double (*force)[NODES],
+                         double (*stiffness)[NODES])
+{
+    bool slides = friction_step_slid(step, i) && step->now[i].line &&
+                  walk_nodes(step, i, way, false, normal, force, stiffness);
+    if (!slides)
+        walk_nodes(step, i, way, true, normal, force, stiffness);
 }
 
 void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
                        double normal, double force[2], double stiffness[2])
 {
     struct friction *after = &step->after[i];
+    struct slip_place now = slip_place_at(way, &step->points->last);
     friction_copy(after, &step->along[i]);
-    walk_to(after, way, &step->points->to_end, true, force);
+    slip_walk(after, way, &step->points->end, &now, force);
     double share = solved_share(after, normal);
     for (int j = 0; j < 2; j++) {
         force[j] *= share;
         stiffness[j] = after->resists[j];
     }
+}
+
+bool friction_step_slides(const struct friction_step *step, size_t i)
+{
+    const double *stuck = step->stuck[i];
+    return stuck[0] + stuck[1] + stuck[2] + stuck[3] + step->after[i].stuck == 0.0;
 }
 
 void friction_step_deepen(struct friction_step *step, const struct scene *scene, size_t contact,
@@ -155,7 +191,8 @@ void friction_step_deepen(struct friction_step *step, const struct scene *scene,
         friction_deepen(&step->now[friction], deeper);
 }
 
-void friction_step_take(struct friction_step *step)
+void friction_step_take(struct friction_step *step, const struct scene *scene, int level,
+                        double (*const force)[NODES], const double *end_force)
 {
     if (step->plain) {
         coulomb_take(&step->coulomb);
@@ -166,6 +203,15 @@ void friction_step_take(struct friction_step *step)
         step->after[i] = step->now[i];
         step->now[i] = taken;
     }
+    for (size_t i = 0; i < step->count; i++) {
+        size_t row = scene_tangent(scene, i), rows[3] = {scene->friction[i].contact, row, row + 1};
+        for (int r = 0; r < 3; r++) {
+            double *taken = step->taken[3 * i + r];
+            memcpy(taken, force[rows[r]] + 1, (NODES - 1) * sizeof *taken);
+            taken[NODES - 1] = end_force[rows[r]];
+        }
+    }
+    step->level = level;
 }
 
 double friction_step_rounding(const struct friction_step *step, size_t i)
