@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # The same impacts in other programs, from PyPI in the versions below: seconds of one core against the error, as a table and a
-# picture. Some five minutes; what the programs print goes to OUTPUT/peers.log.
+# picture. Some five minutes.
 # usage: peers.sh [BUILD [OUTPUT]]      build and docs/figures; needs gnuplot, python3-venv
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -17,17 +17,22 @@ python3 -m venv "$work/venv"
 "$work/venv/bin/pip" install --quiet numpy==2.4.6 scipy==1.17.1 exudyn==1.13.6 mujoco==4.0.0
 
 echo "peers: the same impacts in percuss, scipy, Exudyn and MuJoCo: some five minutes"
-OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PERCUSS_LIBRARY="$build/client/libpercuss.so" \
-    PYTHONPATH="$source/client/python" "$work/venv/bin/python" "$here/peers/peers.py" "$output/peers.csv" \
-    >"$work/peers.log" 2>&1 || {
-    tail -n 20 "$work/peers.log" >&2
-    exit 1
-}
+programs="percuss scipy exudyn mujoco"
+echo "scene,program,settings,error,seconds,why" >"$work/peers.csv"
+for program in $programs; do
+    OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PERCUSS_LIBRARY="$build/client/libpercuss.so" \
+        PYTHONPATH="$source/client/python" "$work/venv/bin/python" "$here/peers/peers.py" $program "$work/peers.csv" \
+        >"$work/$program.log" 2>&1 || {
+        tail -n 20 "$work/$program.log" >&2
+        exit 1
+    }
+done
+cp "$work/peers.csv" "$output/peers.csv"
 
 # of each program the settings that nothing beats in both: error, seconds
 for scene in rod beam; do
-    for program in percuss scipy exudyn mujoco; do
-        awk -F, -v scene=$scene -v program=$program '$1 == scene && $2 == program && $4 + 0 < 1 { print $4, $5 }' \
+    for program in $programs; do
+        awk -F, -v scene=$scene -v program=$program '$1 == scene && $2 == program && $4 != "" && $4 + 0 < 1 { print $4, $5 }' \
             "$output/peers.csv" | sort -g -k 2 -k 1 |
             awk '!seen || $1 + 0 < least { print; least = $1 + 0; seen = 1 }' >"$work/$scene-$program.dat"
     done
