@@ -2,8 +2,8 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The same impacts in other programs, from PyPI in the versions below: seconds of one core against the error, as a table and a
-# picture. Some five minutes.
+# The same impacts in other programs, from PyPI in the versions below: seconds of one core against the error, as a picture and the
+# tables of docs/lab/peers.md. Some five minutes.
 # usage: peers.sh [BUILD [OUTPUT]]      build and docs/figures; needs gnuplot, python3-venv
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -38,4 +38,5 @@ for scene in rod beam; do
     done
 done
 gnuplot -e "folder='$work'; output_name='$output/peers'" "$here/peers/peers.gp"
+python3 "$here/peers/table.py" "$output/peers.csv" "$source/docs/lab/peers.md"
 echo "peers: $output/peers.csv, $output/peers.svg"

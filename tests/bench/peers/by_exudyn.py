@@ -16,6 +16,7 @@ from exudyn.itemInterface import (
 )
 from scenes import ALUMINIUM, BAR, GAP, HALF, LENGTH, RADIUS, ROW, SPEED, STRIKER, contact_of, reference
 
+VERSION = f"Exudyn {exu.__version__}"
 CASES = [(cells, steps) for cells in (25, 50, 100) for steps in (100, 400, 1600)]
 
 

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 from scenes import BAR, SPEED, STRIKER, exported
 
+VERSION = f"MuJoCo {mujoco.__version__}"
 CASES = [(step,) for step in (1.0, 0.5, 0.2)]
 
 

@@ -4,8 +4,10 @@
 
 import time
 
+import percuss
 from scenes import answer, client, question
 
+VERSION = f"percuss {percuss.__version__}"
 CASES = [(10.0**-i,) for i in range(1, 8)]
 
 

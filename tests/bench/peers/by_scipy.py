@@ -6,9 +6,11 @@ import math
 import time
 
 import numpy as np
+import scipy
 from scenes import BAR, ROW, SPEED, STRIKER, bar_modes, contact_of, reference
 from scipy.integrate import solve_ivp
 
+VERSION = f"scipy {scipy.__version__}"
 CASES = [
     (modes, method, tolerance)
     for modes in (10, 20, 40, 80, 160)

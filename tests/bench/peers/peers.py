@@ -6,7 +6,7 @@ A steel sphere on the paper's rod (0.3 m/s) and beam (0.2 m/s), two steel sphere
 the same equations: rigid balls, Hertz's contact of half-spaces, elementary rod, Euler and Bernoulli's beam. The reference is
 percuss at 1e-8, which another way has to confirm: solve_ivp with the most modes and the smallest tolerance.
 
-A program is a module by_PROGRAM.py: CASES are its settings, run(scene, *settings) gives the answer and its seconds, and raises
+A program is a module by_PROGRAM.py: VERSION names it, CASES are its settings, run(scene, *settings) gives the answer and its seconds, and raises
 NotImplementedError with the reason where it has no such scene. Each program has a process of its own.
 
 usage: peers.py PROGRAM OUTPUT.csv      PERCUSS_LIBRARY, and PYTHONPATH with client/python; adds lines of
@@ -34,6 +34,7 @@ def repeated(run, scene, settings):
 
 def lines(name):
     program = importlib.import_module(f"by_{name}")
+    yield "version", name, program.VERSION, "", "", ""
     for scene in SPEED:
         true = reference(scene)[0]
         done = set()
