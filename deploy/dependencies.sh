@@ -4,8 +4,9 @@
 #
 # Installs what percuss is built with and tested with, from Debian 12; nothing where it is there
 # already. Needs root (or sudo) only when something is missing.
-# usage: dependencies.sh [build|test|mpi|package|ci]    (mpi: what percuss-reduce-mpi needs; package: what makes
-# Debian packages; ci: all, a second compiler and what makes an empty machine)
+# usage: dependencies.sh [build|test|mpi|package|ci|peers]    (mpi: what percuss-reduce-mpi needs; package: what makes
+# Debian packages; ci: all of these, a second compiler and what makes an empty machine; peers: the programs of
+# tests/bench/peers.sh)
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
@@ -17,6 +18,7 @@ python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils 
 dwarves doxygen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
+peers="g++ python3-venv libsimbody-dev libsiconos-kernel-dev libsiconos-numerics-dev"
 ci="clang clang-tidy libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in
@@ -25,8 +27,9 @@ test) packages="$build $test" ;;
 ci) packages="$build $test $mpi $package $ci" ;;
 package) packages="$build $package" ;;
 mpi) packages="$build $mpi" ;;
+peers) packages="$build $peers" ;;
 *)
-    echo "usage: dependencies.sh [build|test|mpi|package|ci]" >&2
+    echo "usage: dependencies.sh [build|test|mpi|package|ci|peers]" >&2
     exit 2
     ;;
 esac

@@ -2,25 +2,32 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The same impacts in other programs, from PyPI in the versions below: seconds of one core against the error, as a picture and the
-# tables of docs/lab/peers.md. Some five minutes.
-# usage: peers.sh [BUILD [OUTPUT]]      build and docs/figures; needs gnuplot, python3-venv
+# The same impacts in other programs, from PyPI in the versions below and from Debian: seconds of one core against the error, as a
+# picture and the tables of docs/lab/peers.md. Some ten minutes.
+# usage: peers.sh [BUILD [OUTPUT]]      build and docs/figures
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
 build=$(cd "${1:-$source/build}" && pwd)
 output=$(cd "${2:-$source/docs/figures}" && pwd)
 
+sh "$source/deploy/dependencies.sh" peers
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
 "$work/venv/bin/pip" install --quiet numpy==2.4.6 scipy==1.17.1 exudyn==1.13.6 mujoco==4.0.0
 
-echo "peers: the same impacts in percuss, scipy, Exudyn and MuJoCo: some five minutes"
-programs="percuss scipy exudyn mujoco"
+siconos=/usr/include/siconos
+g++ -std=c++17 -O2 "$here/peers/siconos.cpp" -o "$work/siconos" -I$siconos -I$siconos/kernel -I$siconos/numerics \
+    -I$siconos/externals -lsiconos_kernel -lsiconos_numerics
+# its own standard of C++ would be older
+g++ $(pkg-config --cflags simbody) -std=c++17 -O2 "$here/peers/simbody.cpp" -o "$work/simbody" $(pkg-config --libs simbody)
+
+programs="percuss scipy exudyn siconos simbody mujoco"
+echo "peers: the same impacts in $programs: some ten minutes"
 echo "scene,program,settings,error,seconds,why" >"$work/peers.csv"
 for program in $programs; do
-    OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PERCUSS_LIBRARY="$build/client/libpercuss.so" \
+    OMP_NUM_THREADS=1 PEERS="$work" OPENBLAS_NUM_THREADS=1 PERCUSS_LIBRARY="$build/client/libpercuss.so" \
         PYTHONPATH="$source/client/python" "$work/venv/bin/python" "$here/peers/peers.py" $program "$work/peers.csv" \
         >"$work/$program.log" 2>&1 || {
         tail -n 20 "$work/$program.log" >&2

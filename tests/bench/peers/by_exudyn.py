@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
     ObjectContactSphereSphere,
     ObjectMassPoint,
 )
-from scenes import ALUMINIUM, BAR, GAP, HALF, LENGTH, RADIUS, ROW, SPEED, STRIKER, contact_of, reference
+from scenes import ALUMINIUM, BAR, GAP, HALF, LENGTH, RADIUS, ROW, SPEED, STRIKER, contact_of, reference, restitution
 
 VERSION = f"Exudyn {exu.__version__}"
 CASES = [(cells, steps) for cells in (25, 50, 100) for steps in (100, 400, 1600)]
@@ -71,5 +71,4 @@ def run(scene, cells, steps):
     after = [system.GetNodeOutput(p[0], exu.OutputVariableType.Velocity)[0] for p in points]
     if scene == "row":
         return -np.array(after) / speed, seconds
-    other = STRIKER if scene == "balls" else BAR
-    return np.array([STRIKER * (speed - after[0]) * (1.0 / STRIKER + 1.0 / other) / speed - 1.0]), seconds
+    return restitution(scene, after[0]), seconds

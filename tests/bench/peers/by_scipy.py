@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import scipy
-from scenes import BAR, ROW, SPEED, STRIKER, bar_modes, contact_of, reference
+from scenes import ROW, SPEED, STRIKER, bar_modes, contact_of, reference, restitution
 from scipy.integrate import solve_ivp
 
 VERSION = f"scipy {scipy.__version__}"
@@ -53,6 +53,4 @@ def run(scene, modes, method, tolerance):
     y = solved.y[:, -1]
     if scene == "row":
         return -y[ROW:] / speed, seconds
-    other = BAR if scene in ("rod", "beam") else STRIKER
-    impulse = STRIKER * (speed - y[1])
-    return np.array([impulse * (1.0 / STRIKER + 1.0 / other) / speed - 1.0]), seconds
+    return restitution(scene, y[1]), seconds

@@ -22,16 +22,17 @@ set key top left reverse Left samplen 2 spacing 0.9 font ",11"
 
 scenes = "rod beam"
 titles = '"A sphere on a rod, 0.3 m/s" "A sphere on a beam, 0.2 m/s"'
-programs = "percuss scipy exudyn mujoco"
-names = '"percuss" "scipy, modal equations" "Exudyn, chain of masses" "MuJoCo, percuss export"'
-colours = "#c0392b #1f5fa8 #2e8b57 #d68910"
-points = "7 5 9 13"
+programs = "percuss scipy exudyn siconos simbody mujoco"
+names = '"percuss" "scipy, modes" "Exudyn, chain of masses" "Siconos, modes" "Simbody, chain of bodies" "MuJoCo, percuss export"'
+colours = "#c0392b #1f5fa8 #2e8b57 #7d3c98 #117a8b #d68910"
+points = "7 5 9 11 4 13"
 file(scene, program) = folder . "/" . word(scenes, scene) . "-" . word(programs, program) . ".dat"
-shown(scene, program) = scene == 1 || program != 3 ? file(scene, program) : "/dev/null" # no beam is set up in Exudyn
+there(scene, program) = system("test -s '" . file(scene, program) . "' && echo yes") eq "yes"
+shown(scene, program) = there(scene, program) ? file(scene, program) : "/dev/null"
 set style line 1 linewidth 2 pointsize 0.6
 do for [s = 1:2] {
     set title word(titles, s)
-    plot for [i = 1:4] shown(s, i) using 1:2 with linespoints linestyle 1 linecolor rgb word(colours, i) \
-        pointtype (word(points, i) + 0) title (s == 1 || i != 3 ? word(names, i) : "")
+    plot for [i = 1:words(programs)] shown(s, i) using 1:2 with linespoints linestyle 1 linecolor rgb word(colours, i) \
+        pointtype (word(points, i) + 0) title (s == 1 || !there(1, i) ? word(names, i) : "")
 }
 unset multiplot

@@ -118,3 +118,9 @@ def exported(engine, scene):
     command += ["--speed", f"{0.5 * SPEED[scene]}:{1.5 * SPEED[scene]}:3"]
     told = json.loads(subprocess.run([*command, "--json"], check=True, capture_output=True).stdout)
     return told, subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def restitution(scene, striker):
+    """e of two bodies by the striker's speed after."""
+    other = BAR if scene in ("rod", "beam") else STRIKER
+    return np.array([STRIKER * (SPEED[scene] - striker) * (1.0 / STRIKER + 1.0 / other) / SPEED[scene] - 1.0])
