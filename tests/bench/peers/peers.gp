@@ -9,7 +9,7 @@ set output output_name . ".svg"
 set multiplot layout 1,2
 set logscale xy
 set xrange [1:1e-9] reverse
-set xtics 1e-9, 100, 1
+set xtics (1, 1e-2, 1e-4, 1e-6, 1e-8)
 set yrange [5e-5:40]
 set format x "10^{%T}"
 set format y "10^{%T}"
