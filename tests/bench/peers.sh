@@ -15,15 +15,15 @@ sh "$source/deploy/dependencies.sh" peers
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install --quiet numpy==2.4.6 scipy==1.17.1 exudyn==1.13.6 mujoco==4.0.0
+"$work/venv/bin/pip" install --quiet numpy==2.4.6 scipy==1.17.1 exudyn==1.13.6 mujoco==4.0.0 drake==1.51.1
 
 siconos=/usr/include/siconos
 g++ -std=c++17 -O2 "$here/peers/siconos.cpp" -o "$work/siconos" -I$siconos -I$siconos/kernel -I$siconos/numerics \
     -I$siconos/externals -lsiconos_kernel -lsiconos_numerics
 # its own standard of C++ would be older
-g++ $(pkg-config --cflags simbody) -std=c++17 -O2 "$here/peers/simbody.cpp" -o "$work/simbody" $(pkg-config --libs simbody)
+g++ $(pkg-config --cflags simbody) -std=c++14 -O2 "$here/peers/simbody.cpp" -o "$work/simbody" $(pkg-config --libs simbody)
 
-programs="percuss scipy exudyn siconos simbody mujoco"
+programs="percuss scipy exudyn siconos simbody mujoco drake"
 echo "peers: the same impacts in $programs: some ten minutes"
 echo "scene,program,settings,error,seconds,why" >"$work/peers.csv"
 for program in $programs; do

@@ -1,13 +1,26 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-"""scipy: the modal equations as everyone writes them."""
+"""scipy: the modal equations as everyone writes them; the ball that bounces by events on parabolas and on each blow."""
 
 import math
 import time
 
 import numpy as np
 import scipy
-from scenes import ROW, SPEED, STRIKER, bar_modes, contact_of, reference, restitution
+from scenes import (
+    DROP,
+    END,
+    GRAVITY,
+    ROW,
+    SPEED,
+    STRIKER,
+    anvil,
+    bar_modes,
+    contact_of,
+    height_left,
+    reference,
+    restitution,
+)
 from scipy.integrate import solve_ivp
 
 VERSION = f"scipy {scipy.__version__}"
@@ -20,7 +33,51 @@ CASES = [
 ]
 
 
+def event(function, direction):
+    function.terminal, function.direction = True, direction
+    return function
+
+
+def blow(contact, speed, method, tolerance):
+    """Loading to the turn, then unloading to the dent: the speed after, the depth that the ball leaves, and the time."""
+
+    def part(force, start, until):
+        solved = solve_ivp(
+            lambda _, y: (y[1], GRAVITY - force(y[0]) / STRIKER),
+            (0.0, 1e-3),
+            start,
+            method=method,
+            rtol=tolerance,
+            atol=(1e-6 * tolerance, tolerance),
+            events=until,
+        )
+        return solved.y[0, -1], solved.y[1, -1], solved.t[-1]
+
+    deepest, _, loading = part(contact.load, (0.0, speed), event(lambda _, y: y[1], -1))
+    dent, largest = contact.dent(deepest), contact.load(deepest)
+
+    def unload(d):
+        return largest * (max(d - dent, 0.0) / (deepest - dent)) ** 1.5
+
+    depth, after, unloading = part(unload, (deepest, 0.0), event(lambda _, y: y[0] - dent, -1))
+    return -after, depth, loading + unloading
+
+
+def bounce(method, tolerance):
+    began = time.process_time()
+    speed = math.sqrt(2.0 * GRAVITY * DROP)
+    now = speed / GRAVITY
+    while now < END:
+        up, depth, blown = blow(anvil(), speed, method, tolerance)
+        speed = math.sqrt(up**2 - 2.0 * GRAVITY * depth)  # at the height where the next blow begins
+        now += blown + (up + speed) / GRAVITY
+    seconds = time.process_time() - began
+    return np.array([0.5 * speed**2 / GRAVITY / height_left()]), seconds
+
+
 def run(scene, modes, method, tolerance):
+    if scene == "bounce":
+        return bounce(method, tolerance)
     speed, window, k = SPEED[scene], reference(scene)[1], contact_of(scene)
     if scene == "row":
         n = ROW

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import percuss
+import plastic
 
 STEEL, ALUMINIUM = (210e9, 0.30, 7800.0), (70e9, 0.33, 2700.0)
 RADIUS, HALF, LENGTH = 0.015, 0.010, 1.0
@@ -18,6 +19,11 @@ STRIKER = 4.0 / 3.0 * math.pi * RADIUS**3 * STEEL[2]
 BAR = math.pi * HALF**2 * LENGTH * ALUMINIUM[2]
 ROW = 10
 SPEED = {"rod": 0.3, "beam": 0.2, "balls": 1.0, "row": 1.0}
+SCENES = (*SPEED, "bounce")
+DROP, GRAVITY, END = 0.51, 9.81, 10.0  # of the ball that bounces: m, m/s^2, s; no blow is within 10 ms of the end
+STRENGTH = 1e9  # Pa, yield stress of what it bounces on
+BOUNCES = (0.15, 3.2)  # m/s: its speeds
+ONE_E = "one restitution at all speeds, as MuJoCo's"
 GAP = 1e-9  # m, where a program takes no two bodies that touch already
 
 
@@ -80,6 +86,10 @@ def client():
     return percuss.Local(Path(__file__).with_name("catalogue.yaml"))
 
 
+def partner(scene):
+    return {"balls": "ball", "bounce": "anvil"}.get(scene, scene)
+
+
 def question(scene, tolerance):
     bodies = client().bodies()
     if scene == "row":
@@ -90,9 +100,7 @@ def question(scene, tolerance):
         for i in range(ROW - 1):
             asked.contacts.append(percuss.Contact(i, i + 1, point=(0, 0, -RADIUS * (2 * i + 1)), normal=(0, 0, 1)))
     else:
-        asked = percuss.contact_pair(
-            bodies["striker"], bodies["ball" if scene == "balls" else scene], speed=SPEED[scene]
-        )
+        asked = percuss.contact_pair(bodies["striker"], bodies[partner(scene)], speed=SPEED[scene])
     asked.options.tolerance = tolerance
     return asked
 
@@ -104,18 +112,53 @@ def answer(reply, scene):
     return np.array([body.velocity[2] for body in reply.velocity_after]) / SPEED[scene]
 
 
+def blow_options(tolerance):
+    """Of a blow of the ball that bounces: a law that others can write, and each time a new place."""
+    return percuss.Options(tolerance=tolerance, contact_model=percuss.ContactModel.CLOSED_FORM, dents=percuss.Dents.IGNORE)
+
+
+@functools.cache
+def anvil():
+    """The contact of the ball that bounces."""
+    return plastic.Contact(hertz(STEEL, STEEL, 1.0 / RADIUS), 0.5 * STEEL[0] / (1.0 - STEEL[1] ** 2), STEEL[1], STRENGTH, RADIUS)
+
+
+@functools.cache
+def height_left():
+    """Of the ball that bounces, m, at the end: parabolas between blows, in which its weight acts too, from dents to the next."""
+    bodies = client().bodies()
+    speed = math.sqrt(2.0 * GRAVITY * DROP)
+    now = speed / GRAVITY
+    while now < END:
+        blow = percuss.contact_pair(bodies["striker"], bodies["anvil"], speed=speed)
+        blow.options = blow_options(1e-8)
+        blow.contacts[0].gap_acceleration = -GRAVITY
+        contact = client().solve(blow).contacts[0]
+        # e is that of the impulse, against which the weight has acted
+        up = contact.restitution * speed - GRAVITY * contact.end_time
+        speed = math.sqrt(up**2 - 2.0 * GRAVITY * anvil().dent(contact.sub_impacts[0]["max_indentation"]))
+        now += contact.end_time + (up + speed) / GRAVITY
+    return 0.5 * speed**2 / GRAVITY
+
+
 @functools.cache
 def reference(scene):
+    """The answer, and the time that it takes, s; of the ball that bounces all answers are heights over the true one."""
+    if scene == "bounce":
+        return np.ones(1), END
     reply = client().solve(question(scene, 1e-8))
     return answer(reply, scene), reply.window
 
 
-def exported(engine, scene):
+def exported(engine, scene, *more):
     """What percuss export says for an engine over 0.5 to 1.5 times the speed: its numbers, and the text that the engine reads."""
     program = Path(os.environ["PERCUSS_LIBRARY"]).parents[1] / "bin" / "percuss"
     command = [program, "export", "--for", engine, "--local", "--catalogue", Path(__file__).with_name("catalogue.yaml")]
-    command += ["--a", "striker", "--b", "ball" if scene == "balls" else scene]
-    command += ["--speed", f"{0.5 * SPEED[scene]}:{1.5 * SPEED[scene]}:3"]
+    command += ["--a", "striker", "--b", partner(scene), *more]
+    if scene == "bounce":
+        command += ["--speed", "{}:{}".format(*BOUNCES), "--contact-model", "closed-form"]
+    else:
+        command += ["--speed", f"{0.5 * SPEED[scene]}:{1.5 * SPEED[scene]}:3"]
     told = json.loads(subprocess.run([*command, "--json"], check=True, capture_output=True).stdout)
     return told, subprocess.run(command, check=True, capture_output=True, text=True).stdout
 

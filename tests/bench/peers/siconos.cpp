@@ -1,12 +1,15 @@
 // Copyright 2026 The percuss authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An impact in Siconos: M a + K q = H' f, the gaps -H q of contacts that touch at the start, by one of its laws:
+// An impact in Siconos: M a + K q = H' f, the gaps -H q of contacts that touch at the start, by one
+// of its laws:
 //   newton  unilateral contacts with Newton's e, Moreau and Jean's time stepping
 //   hertz   f = k (H q)^1.5 as internal forces, the same time stepping
 //   lsodar  the same forces, its event-driven integrator LSODAR; 1/steps is the tolerance
-//   liu     Liu, Zhao and Brogliato's impulses of compliant contacts in an instant; 1/steps is the part of the impulse before
-// reads: law steps end e; n m; M, K (diagonals), v; H (m rows); k       prints: seconds, the velocities at the end
+//   liu     Liu, Zhao and Brogliato's impulses of compliant contacts in an instant; 1/steps is the
+//   part of the impulse before
+// reads: law steps end e; n m; M, K (diagonals), v; H (m rows); k       prints: seconds, the
+// velocities at the end
 #include <SiconosKernel.hpp>
 
 #include <algorithm>
@@ -16,7 +19,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace
+{
 
 struct Problem {
     std::string law;
@@ -27,16 +31,16 @@ struct Problem {
 
 Problem problem; // the forces' plugins have no other way to it
 
-void read(std::vector<double>& values, size_t count)
+void read(std::vector<double> &values, size_t count)
 {
     values.resize(count);
-    for (double& value : values)
+    for (double &value : values)
         std::cin >> value;
 }
 
 bool read_problem()
 {
-    Problem& p = problem;
+    Problem &p = problem;
     std::cin >> p.law >> p.steps >> p.end >> p.restitution >> p.n >> p.m;
     read(p.mass, p.n);
     read(p.stiffness, p.n);
@@ -46,7 +50,7 @@ bool read_problem()
     return bool(std::cin);
 }
 
-double indentation(const double* row, const double* q)
+double indentation(const double *row, const double *q)
 {
     double d = 0.0;
     for (unsigned i = 0; i < problem.n; i++)
@@ -54,25 +58,25 @@ double indentation(const double* row, const double* q)
     return d > 0.0 ? d : 0.0;
 }
 
-void forces(double, unsigned n, double* q, double*, double* f, unsigned, double*)
+void forces(double, unsigned n, double *q, double *, double *f, unsigned, double *)
 {
     for (unsigned i = 0; i < n; i++)
         f[i] = problem.stiffness[i] * q[i];
     for (unsigned c = 0; c < problem.m; c++) {
-        const double* row = &problem.h[c * n];
+        const double *row = &problem.h[c * n];
         double d = indentation(row, q), force = problem.k * d * std::sqrt(d);
         for (unsigned i = 0; i < n; i++)
             f[i] += row[i] * force;
     }
 }
 
-void slopes(double, unsigned n, double* q, double*, double* j, unsigned, double*)
+void slopes(double, unsigned n, double *q, double *, double *j, unsigned, double *)
 {
     std::fill(j, j + size_t(n) * n, 0.0);
     for (unsigned i = 0; i < n; i++)
         j[i * n + i] = problem.stiffness[i];
     for (unsigned c = 0; c < problem.m; c++) {
-        const double* row = &problem.h[c * n];
+        const double *row = &problem.h[c * n];
         double slope = 1.5 * problem.k * std::sqrt(indentation(row, q));
         for (unsigned a = 0; a < n; a++)
             for (unsigned b = 0; b < n; b++)
@@ -80,7 +84,7 @@ void slopes(double, unsigned n, double* q, double*, double* j, unsigned, double*
     }
 }
 
-SP::SimpleMatrix diagonal(const std::vector<double>& values)
+SP::SimpleMatrix diagonal(const std::vector<double> &values)
 {
     SP::SimpleMatrix matrix(new SimpleMatrix(values.size(), values.size()));
     for (size_t i = 0; i < values.size(); i++)
@@ -102,7 +106,7 @@ SP::LagrangianDS bodies()
     return ds;
 }
 
-void link_contacts(const SP::NonSmoothDynamicalSystem& system, const SP::LagrangianDS& ds)
+void link_contacts(const SP::NonSmoothDynamicalSystem &system, const SP::LagrangianDS &ds)
 {
     for (unsigned c = 0; c < problem.m; c++) {
         SP::SimpleMatrix h(new SimpleMatrix(1, problem.n));
@@ -118,7 +122,7 @@ void link_contacts(const SP::NonSmoothDynamicalSystem& system, const SP::Lagrang
     }
 }
 
-void step_through(const SP::NonSmoothDynamicalSystem& system, const SP::LagrangianDS& ds)
+void step_through(const SP::NonSmoothDynamicalSystem &system, const SP::LagrangianDS &ds)
 {
     SP::TimeDiscretisation times(new TimeDiscretisation(0.0, problem.end / problem.steps));
     SP::OneStepIntegrator integrator(new MoreauJeanOSI(0.5));
@@ -134,7 +138,7 @@ void step_through(const SP::NonSmoothDynamicalSystem& system, const SP::Lagrangi
     }
 }
 
-void follow_events(const SP::NonSmoothDynamicalSystem& system, const SP::LagrangianDS& ds)
+void follow_events(const SP::NonSmoothDynamicalSystem &system, const SP::LagrangianDS &ds)
 {
     SP::TimeDiscretisation times(new TimeDiscretisation(0.0, problem.end));
     std::shared_ptr<LsodarOSI> integrator(new LsodarOSI());
@@ -153,7 +157,8 @@ void follow_events(const SP::NonSmoothDynamicalSystem& system, const SP::Lagrang
         impact = steps;
     }
     simulation->insertNonSmoothProblem(impact, SICONOS_OSNSP_ED_IMPACT);
-    simulation->insertNonSmoothProblem(SP::OneStepNSProblem(new LCP()), SICONOS_OSNSP_ED_SMOOTH_ACC);
+    simulation->insertNonSmoothProblem(SP::OneStepNSProblem(new LCP()),
+                                       SICONOS_OSNSP_ED_SMOOTH_ACC);
     simulation->initialize();
     integrator->setMaxNstep(1000000);
     while (simulation->hasNextEvent()) {
@@ -170,7 +175,8 @@ try {
         std::cerr << "siconos: the problem is not complete\n";
         return 2;
     }
-    SP::NonSmoothDynamicalSystem system(new NonSmoothDynamicalSystem(0.0, problem.end * (1.0 + 1e-9)));
+    SP::NonSmoothDynamicalSystem system(
+        new NonSmoothDynamicalSystem(0.0, problem.end * (1.0 + 1e-9)));
     SP::LagrangianDS ds = bodies();
     system->insertDynamicalSystem(ds);
     std::clock_t began = std::clock();

@@ -13,7 +13,8 @@ SCENES = {
     "rod": "A sphere on a rod, 0.3 m/s",
     "beam": "A sphere on a beam, 0.2 m/s",
     "balls": "Two balls, 1 m/s",
-    "row": "The first of ten balls in a row, 1 m/s",
+    "row": "Ten balls in a row, the first at 1 m/s; the worst ball",
+    "bounce": "A ball that bounces for 10 s; the height that it has left",
 }
 ERRORS = (1e-2, 1e-3, 1e-4, 1e-6)
 BEGIN, END = "<!-- tables begin -->\n", "<!-- tables end -->\n"
@@ -24,7 +25,7 @@ def ratio(value):
 
 
 def power(value):
-    return f"{value:.1e}".replace(".0e", "e").replace("e-0", "e-") if value else "0"
+    return f"{value:.1e}".replace(".0e", "e").replace("e-0", "e-") if 0.0 < value < 0.1 else f"{value:.2g}"
 
 
 def cells(points, unit):
