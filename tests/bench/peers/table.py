@@ -44,7 +44,7 @@ def table(scene, rows, versions):
             of_program.setdefault(row["program"], []).append(row)
     points = {p: [(float(r["error"]), float(r["seconds"])) for r in found if r["error"]] for p, found in of_program.items()}
     unit = min(seconds for _, seconds in points["percuss"])
-    yield f"**{SCENES[scene]}**; 1 is {1e3 * unit:.2g} ms\n\n"
+    yield f"**{SCENES[scene]}**; 1 is {ratio(1e3 * unit)} ms\n\n"
     yield "| least time for an error of | " + " | ".join(map(power, ERRORS)) + " | least error |\n"
     yield "|---" * (len(ERRORS) + 2) + "|\n"
     for program, found in of_program.items():
