@@ -5,8 +5,8 @@
 # What a warm solve and a first one cost by their parts, in instructions, beside what its arithmetic alone would cost, what the
 # daemon adds, and how a step's cost grows with modes and contacts: writes the tables of docs/lab/performance.md
 # between its marks, and its figure.
-# usage: performance.sh BUILD [FOLDER]    a Release build with tests/bench/solve_once, fixed_part and growth;
-#                                         a copy of docs to write to instead
+# usage: performance.sh BUILD [FOLDER]    a Release build with bin/percuss, tests/bench/solve_once, fixed_part and
+#                                         growth; a copy of docs to write to instead
 #
 # callgrind counts all that a solve calls, libm and libc with it (instructions.sh counts this project's own
 # code alone). A part is a function with all that it calls; a function that is not found, because the compiler
@@ -67,6 +67,15 @@ the models' error|models_find_error|
 PARTS
 }
 
+# a sample of an ensemble in which speeds alone vary
+sample_parts() {
+    cat <<'PARTS'
+contact steps|contact_phase|
+flights|march_run|contact_phase energy_audit
+audit of the energy|energy_audit|
+PARTS
+}
+
 # what the first solve of a body adds, and what it shares with any other
 first_parts() {
     cat <<'PARTS'
@@ -108,7 +117,8 @@ table() {
         FILENAME == "parts" { split($0, field, "|"); part[++lines] = field[1]
                               plus[lines] = field[2]; minus[lines] = field[3]; next }
         FNR == 1 { file[++files] = FILENAME }
-        $2 == "-" { cost[FILENAME, $1] = $3 }
+        # of a hundred samples one
+        $2 == "-" { cost[FILENAME, $1] = FILENAME ~ /^sample/ ? $3 / 100 : $3 }
         END {
             for (i = 1; i <= lines; i++) {
                 line = "| " part[i] " |"
@@ -132,10 +142,12 @@ table() {
 
 # calls FILE CALLER CALLEE: of one solve ("." any caller; CALLEE is the beginning of a name, the one with most)
 calls() {
-    awk -v caller="$2" -v callee="$3" '
+    # solve_once solves three times, or a hundred samples
+    case $1 in sample*) solves=100 ;; *) solves=3 ;; esac
+    awk -v caller="$2" -v callee="$3" -v solves=$solves '
         $2 != "-" && (caller == "." || $1 == caller) && index($2, callee) == 1 { many[$2] += $4 }
         END { for (f in many) if (many[f] > most) most = many[f]
-              print int(most / 3) }' "$work/$1" # solve_once solves three times
+              print int(most / solves) }' "$work/$1"
 }
 
 # counts NAME...: how often, and what the arithmetic alone would cost. A step with n modes and one contact: its
@@ -158,6 +170,45 @@ counts() {
               print "| intervals of flights, of all |" intervals; print "| **arithmetic alone, some** |" alone }'
 }
 
+# processor seconds of an ensemble of that many samples, the least of three
+ensemble_seconds() {
+    count=$1
+    shift
+    for _ in 1 2 3; do
+        # shellcheck disable=SC2016 # the inner shell's
+        sh -c '"$@" >/dev/null 2>&1 || exit; times' ensemble "$build/bin/percuss" ensemble --local \
+            --a steel-sphere --b al-beam --speed uniform:0.089:0.411 --samples "$count" "$@" |
+            awk 'NR == 2 { split($1, user, "[ms]"); print 60 * user[1] + user[2] }'
+    done | sort -g | sed -n 1p
+}
+
+# sample_cost NAME INPUT...: what one more sample takes, without what all share
+sample_cost() {
+    name=$1
+    shift
+    few=$(ensemble_seconds 4000 "$@")
+    many=$(ensemble_seconds 24000 "$@")
+    echo "$name,$few,$many"
+}
+
+# what a sample of the beam takes by what varies besides the speed, and beside speeds alone
+sample_costs() {
+    young=--input=young@al-beam=normal:70e9:1e9
+    radius=--input=radius@steel-sphere=normal:0.015:0.00005
+    site=--input=site@al-beam=normal:0.5:0.001
+    damping=--input=damping@al-beam=log-normal:0.002:0.001
+    {
+        sample_cost "speed alone"
+        sample_cost "place along the beam" $site
+        sample_cost "radius of the sphere" $radius
+        sample_cost "Young's modulus of the beam" $young
+        sample_cost "damping of the beam" $damping
+        sample_cost "all five" $site $radius $young $damping
+    } | awk -F, '{ each = ($3 - $2) / 20000
+                   if (NR == 1) first = each
+                   printf "| %s | %.0f | %.1f |\n", $1, 1e6 * each, each / first }'
+}
+
 scenes=
 for scene in rod beam; do
     for tolerance in 1e-3 1e-4; do
@@ -167,6 +218,7 @@ for scene in rod beam; do
 done
 profile thrown-1e-3 counted_solve "$build/tests/bench/solve_once" beam 1e-3 thrown
 scenes="$scenes thrown-1e-3"
+profile sample-1e-3 counted_sample "$build/tests/bench/solve_once" beam 1e-3 samples
 first=
 for scene in rod beam; do
     profile "first-$scene" counted_solve "$build/tests/bench/solve_once" "$scene" 1e-3 first
@@ -202,6 +254,13 @@ tables() {
         head "the first solve, 1e-3" rod beam
         table first_parts counted_solve $first
     }
+    echo
+    head "a sample of an ensemble" "beam 1e-3"
+    table sample_parts counted_sample sample-1e-3
+    counts sample-1e-3
+    echo
+    head "a sample, beam 1e-3, by what varies" "us of a processor" "of speed alone"
+    sample_costs
     echo
     head instructions sphere-sphere "rod 1e-4" "beam 1e-3, 0.2 m/s"
     table fixed_parts counted_answer answer-sphere-sphere answer-rod-1e-4 answer-beam-1e-3

@@ -175,9 +175,12 @@ int main(int argc, char **argv)
         status = solve_warm(workspace, &means, &request, &result);
     else if (first && catalogue.set.count)
         status = counted_solve(workspace, &means, &request, &result);
-    else if (samples && catalogue.set.count)
-        status = solve_samples(&means, &request, &result);
-    else if (sites && catalogue.set.count)
+    else if (samples && catalogue.set.count) {
+        /* the answer has the model's modes */
+        status = solve(workspace, &means, &request, &result);
+        if (!status)
+            status = solve_samples(&means, &request, &result);
+    } else if (sites && catalogue.set.count)
         status = solve_sites(workspace, &means, &request, again, &result);
     for (int i = 0; (groups || singles) && catalogue.set.count && i < GROUPS; i++) {
         struct solve_request group = request;
