@@ -18,7 +18,7 @@ python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils 
 dwarves doxygen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
-peers="g++ python3-venv libsimbody-dev libsiconos-kernel-dev"
+peers="g++ python3-venv calculix-ccx libsimbody-dev libsiconos-kernel-dev"
 ci="clang clang-tidy libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in

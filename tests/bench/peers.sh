@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # The same impacts in other programs, from PyPI in the versions below and from Debian: seconds of one core against the error, as a
-# picture and the tables of docs/lab/peers.md. Some ten minutes.
+# picture and the tables of docs/lab/peers.md. Some twenty minutes.
 # usage: peers.sh [BUILD [OUTPUT]]      build and docs/figures
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,8 +23,8 @@ g++ -std=c++17 -O2 "$here/peers/siconos.cpp" -o "$work/siconos" -I$siconos -I$si
 # its own standard of C++ would be older
 g++ $(pkg-config --cflags simbody) -std=c++14 -O2 "$here/peers/simbody.cpp" -o "$work/simbody" $(pkg-config --libs simbody)
 
-programs="percuss scipy exudyn siconos simbody mujoco drake"
-echo "peers: the same impacts in $programs: some ten minutes"
+programs="percuss scipy exudyn siconos simbody calculix mujoco drake"
+echo "peers: the same impacts in $programs: some twenty minutes"
 echo "scene,program,settings,error,seconds,why" >"$work/peers.csv"
 for program in $programs; do
     OMP_NUM_THREADS=1 PEERS="$work" OPENBLAS_NUM_THREADS=1 PERCUSS_LIBRARY="$build/client/libpercuss.so" \
@@ -46,4 +46,6 @@ for scene in rod beam; do
 done
 gnuplot -e "folder='$work'; output_name='$output/peers'" "$here/peers/peers.gp"
 python3 "$here/peers/table.py" "$output/peers.csv" "$source/docs/lab/peers.md"
-echo "peers: $output/peers.csv, $output/peers.svg"
+
+sh "$here/peers/solids.sh" "$build" "$output" "$work/venv/bin/python"
+echo "peers: $output/peers.csv, $output/solids.csv, $output/peers.svg"

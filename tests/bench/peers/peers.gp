@@ -22,10 +22,10 @@ set key top left reverse Left samplen 2 spacing 0.9 font ",11"
 
 scenes = "rod beam"
 titles = '"A sphere on a rod, 0.3 m/s" "A sphere on a beam, 0.2 m/s"'
-programs = "percuss scipy exudyn siconos simbody mujoco drake"
-names = '"percuss" "scipy, modes" "Exudyn, chain of masses" "Siconos, modes" "Simbody, chain of bodies" "MuJoCo, percuss export" "Drake, percuss export"'
-colours = "#c0392b #1f5fa8 #2e8b57 #7d3c98 #117a8b #d68910 #5d6d7e"
-points = "7 5 9 11 4 13 6"
+programs = "percuss scipy exudyn siconos simbody calculix mujoco drake"
+names = '"percuss" "scipy, modes" "Exudyn, chain of masses" "Siconos, modes" "Simbody, chain of bodies" "CalculiX, trusses" "MuJoCo, percuss export" "Drake, percuss export"'
+colours = "#c0392b #1f5fa8 #2e8b57 #7d3c98 #117a8b #8d6e63 #d68910 #5d6d7e"
+points = "7 5 9 11 4 8 13 6"
 file(scene, program) = folder . "/" . word(scenes, scene) . "-" . word(programs, program) . ".dat"
 there(scene, program) = system("test -s '" . file(scene, program) . "' && echo yes") eq "yes"
 shown(scene, program) = there(scene, program) ? file(scene, program) : "/dev/null"
