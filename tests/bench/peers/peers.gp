@@ -18,7 +18,7 @@ set ylabel "seconds of one core"
 set grid xtics ytics linecolor rgb "#dddddd" linewidth 0.6 linetype 1
 set border 3 linecolor rgb "#444444"
 set tics nomirror
-set key top left reverse Left samplen 2 spacing 0.9 font ",11"
+set key at graph 0.50, graph 0.60 left top reverse Left samplen 1.5 spacing 0.9 width -6 font ",10"
 
 scenes = "rod beam"
 titles = '"A sphere on a rod, 0.3 m/s" "A sphere on a beam, 0.2 m/s"'
