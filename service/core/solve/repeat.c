@@ -112,11 +112,16 @@ static bool lasts(const struct problem *problem)
     return lasts;
 }
 
+/* Bodies of samples before are of use for their modes alone, of which the last ones' are enough. */
+static const size_t MOST_BYTES = (size_t)16 << 20;
+
 static enum percuss_status repeat_begin(struct repeat *repeat, const struct solve_context *context,
                                         const struct solve_request *request, struct fault *fault)
 {
     repeat->problem = NULL;
     repeat->solution.scene = NULL;
+    if (prepared_cache_bytes(repeat->cache) > MOST_BYTES)
+        prepared_cache_drop(repeat->cache, true);
     prepared_cache_use(repeat->cache, context->catalogue->revision);
     arena_reset(&repeat->problem_memory);
     struct problem *problem = problem_create(request, repeat->cache, &repeat->problem_memory);
