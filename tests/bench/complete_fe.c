@@ -138,7 +138,7 @@ int main(int argc, char **argv)
                 (settings.quick && !(targets[t].quick && loads[i].quick)))
                 continue;
             struct complete_problem problem = {
-                .a = {COMPLETE_SPHERE, 0.015, 0.0, steel},
+                .a = {.shape = COMPLETE_SPHERE, .radius = 0.015, .material = steel},
                 .b = targets[t].target,
                 .speed = loads[i].speed,
                 .cells = settings.cells,

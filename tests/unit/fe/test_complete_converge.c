@@ -71,8 +71,13 @@ static struct complete_problem sphere_on_rod(double sphere, double rod, double y
                                              double tangent, double speed)
 {
     return (struct complete_problem){
-        .a = {COMPLETE_SPHERE, sphere, 0.0, {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0}},
-        .b = {COMPLETE_CYLINDER, rod, 1.0, {"aluminium", 73e9, 0.33, 2700.0, yield, tangent}},
+        .a = {.shape = COMPLETE_SPHERE,
+              .radius = sphere,
+              .material = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0}},
+        .b = {.shape = COMPLETE_CYLINDER,
+              .radius = rod,
+              .length = 1.0,
+              .material = {"aluminium", 73e9, 0.33, 2700.0, yield, tangent}},
         .speed = speed,
         .cells = 16,
         .horizon = 20e-3,
@@ -114,8 +119,8 @@ static void progress_rises_and_may_end_it(void **unused)
     assert_int_equal(complete_converge(&problem, 0.01, &found, &fault), PERCUSS_BAD_REQUEST);
 }
 
-/* Means of three phases on meshes of 32 and 24 elements (docs/lab/complete-fe.md); what is open of them
- * is a tenth of their swing's width, 0.0003. */
+/* Means of three phases on meshes of 32 and 24 elements (docs/lab/complete-fe.md); what is open of
+ * them is a tenth of their swing's width, 0.0003. */
 static void finer_meshes_lie_within_the_error(void **unused)
 {
     (void)unused;

@@ -16,11 +16,12 @@ static const struct material glass = {"glass", 48e9, 0.20, 2800.0, INFINITY, 0.0
 
 static struct complete_problem sphere_on_rod(unsigned cells)
 {
-    return (struct complete_problem){.a = {COMPLETE_SPHERE, 0.015, 0.0, steel},
-                                     .b = {COMPLETE_CYLINDER, 0.01, 1.0, aluminium},
-                                     .speed = 0.3,
-                                     .cells = cells,
-                                     .horizon = 1e-3};
+    return (struct complete_problem){
+        .a = {.shape = COMPLETE_SPHERE, .radius = 0.015, .material = steel},
+        .b = {.shape = COMPLETE_CYLINDER, .radius = 0.01, .length = 1.0, .material = aluminium},
+        .speed = 0.3,
+        .cells = cells,
+        .horizon = 1e-3};
 }
 
 static struct complete_result solved(const struct complete_problem *problem)
@@ -192,8 +193,13 @@ static void coarse_steps_are_no_reason_to_refuse(void **unused)
 {
     (void)unused;
     struct complete_problem problem = {
-        .a = {COMPLETE_SPHERE, 5.87e-3, 0.0, {"soft", 83.6e9, 0.28, 6267.0, 266e6, 0.0}},
-        .b = {COMPLETE_CYLINDER, 5.69e-3, 0.12, {"hard", 399e9, 0.29, 10383.0, INFINITY, 0.0}},
+        .a = {.shape = COMPLETE_SPHERE,
+              .radius = 5.87e-3,
+              .material = {"soft", 83.6e9, 0.28, 6267.0, 266e6, 0.0}},
+        .b = {.shape = COMPLETE_CYLINDER,
+              .radius = 5.69e-3,
+              .length = 0.12,
+              .material = {"hard", 399e9, 0.29, 10383.0, INFINITY, 0.0}},
         .speed = 0.4,
         .cells = 4,
         .phase = 1.0 / 3.0,
@@ -253,13 +259,14 @@ static void ringing_disc_is_hit_twice(void **unused)
 {
     (void)unused;
     struct seen seen = {0.0, 0.0};
-    struct complete_problem problem = {.a = {COMPLETE_SPHERE, 0.015, 0.0, steel},
-                                       .b = {COMPLETE_CYLINDER, 0.1, 0.01, aluminium},
-                                       .speed = 0.3,
-                                       .cells = 4,
-                                       .horizon = 3e-3,
-                                       .context = &seen,
-                                       .sample = add_sample};
+    struct complete_problem problem = {
+        .a = {.shape = COMPLETE_SPHERE, .radius = 0.015, .material = steel},
+        .b = {.shape = COMPLETE_CYLINDER, .radius = 0.1, .length = 0.01, .material = aluminium},
+        .speed = 0.3,
+        .cells = 4,
+        .horizon = 3e-3,
+        .context = &seen,
+        .sample = add_sample};
     struct complete_result result = solved(&problem);
     assert_true(result.sub_impacts == 2 && result.end == PERCUSS_END_SEPARATED);
     double sum = result.sub_impact[0].impulse + result.sub_impact[1].impulse;
