@@ -74,7 +74,7 @@ static struct meeting meeting_of(const struct percuss_request *request,
         rate += contact->normal[i] * relative[i];
     for (int i = 0; i < 3; i++)
         square += pow(relative[i] - rate * contact->normal[i], 2.0);
-    return (struct meeting){-rate, sqrt(square)};
+    return (struct meeting){0.0 - rate, sqrt(square)}; /* never -0 */
 }
 
 /* Share of the approach below which a slip is rounding. */

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/cli/reply_table.c: what is said of friction, of contacts that have it. */
+/* Tests client/cli/reply_table.c: what is said of friction, where there is any, and of speeds. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,11 +96,27 @@ static void the_question_says_how_fast_it_slides(void **state)
     expect("  impact       0.4 m/s at (0.1, 0, 0.01) m, sliding at 0.01 m/s\n");
 }
 
+/* As of most contacts of a row. */
+static void bodies_at_rest_approach_at_no_speed(void **state)
+{
+    (void)state;
+    static struct percuss_request request;
+    struct percuss_contact_result contact = {.restitution = 0.5};
+    struct percuss_reply reply = {.contact_count = 1, .contacts = &contact};
+    percuss_request_init(&request);
+    percuss_request_add_body(&request, "a");
+    percuss_request_add_body(&request, "b");
+    percuss_request_add_contact(&request, 0, 1)->normal[2] = 1.0;
+    print(&request, &reply);
+    expect("  impact       0 m/s at (0, 0, 0) m\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(friction_is_told_where_it_is),
         cmocka_unit_test(the_question_says_how_fast_it_slides),
+        cmocka_unit_test(bodies_at_rest_approach_at_no_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
