@@ -29,10 +29,6 @@ static const double AFTER_ALL = 1e-9;
 /* Share of the law's compliance that a negative series compliance may cancel. */
 static const double BEARABLE = 0.5;
 
-/* Of functions that only friction needs: inline they cost each step without it twenty instructions
- * more, for registers. */
-#define NOT_INLINE __attribute__((noinline))
-
 static inline double larger(double a, double b)
 {
     return b > a || isnan(b) ? b : a;
@@ -355,9 +351,9 @@ static void predict_all(struct contact_step *step, size_t contacts,
 }
 
 /* Solves all at once, from the start again. */
-static enum contact_step_end solve_together(struct contact_step *step,
-                                            const struct node_problem *problem,
-                                            const struct contact_start *start)
+NOT_INLINE static enum contact_step_end solve_together(struct contact_step *step,
+                                                       const struct node_problem *problem,
+                                                       const struct contact_start *start)
 {
     size_t unknowns = problem->scene->contacts * NODES;
     if (!step->together)
@@ -372,8 +368,8 @@ static enum contact_step_end solve_together(struct contact_step *step,
 }
 
 /* Those of a single contact whose force depends on its way. */
-static enum contact_step_end solve_way(struct contact_step *step,
-                                       const struct node_problem *problem)
+NOT_INLINE static enum contact_step_end solve_way(struct contact_step *step,
+                                                  const struct node_problem *problem)
 {
     const struct way_problem way = {
         .level = problem->level,

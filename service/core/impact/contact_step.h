@@ -14,6 +14,10 @@
 #include "impact/midpoint.h"
 #include "impact/way_step.h"
 
+/* Of functions that friction or a lossy law alone need: inline they cost each step without these
+ * twenty instructions more, for registers. */
+#define NOT_INLINE __attribute__((noinline))
+
 struct contact_step {
     double (*indentation)[NODES]; /* [row] local, at the nodes */
     double (*force)[NODES];

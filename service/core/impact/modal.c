@@ -579,7 +579,7 @@ static double tangential_factor(const struct modal_run *run, size_t friction)
 /* Of the tangential forces, which bend where part of a contact begins or ends to slide, over their
  * limits, as far as their error counts. They may bend after the last node: there the cubic misses
  * the force at the end. */
-static double tangents_roughness(const struct modal_run *run, double group)
+NOT_INLINE static double tangents_roughness(const struct modal_run *run, double group)
 {
     const struct scene *scene = &run->march.scene;
     double worst = 0.0;
@@ -651,7 +651,7 @@ static void keep_work(struct modal_run *run, size_t contact, double h)
 }
 
 /* Of a contact's friction. */
-static void keep_slide(struct modal_run *run, size_t contact, double h)
+NOT_INLINE static void keep_slide(struct modal_run *run, size_t contact, double h)
 {
     const struct scene *scene = &run->march.scene;
     size_t friction = scene_friction_of(scene, contact);
@@ -696,7 +696,7 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
 
 /* The books of a contact whose force depends on its way: it may part before its indentation ends.
  */
-static void keep_way(struct modal_run *run, double start, int level)
+NOT_INLINE static void keep_way(struct modal_run *run, double start, int level)
 {
     struct way_step *way = run->step.way;
     struct track *track = &run->march.outcome->tracks[0];
@@ -753,7 +753,7 @@ static double pressed(const struct scene *scene, size_t contact)
 }
 
 /* The tangents at the beginning of a phase: contacts of a group may close at any instant of it. */
-static void begin_friction(struct modal_run *run)
+NOT_INLINE static void begin_friction(struct modal_run *run)
 {
     const struct scene *scene = &run->march.scene;
     const struct motion *motion = &run->march.outcome->motion;

@@ -351,9 +351,9 @@ enum percuss_status contact_model_choose(struct problem *problem, const struct b
 bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact)
 {
-    return !problem->contact_model.choices[contact].own &&
-           outcome->laws[contact].history.max_indentation >
-               problem->contact_model.laws[contact].history.max_indentation;
+    return outcome->laws[contact].history.max_indentation >
+               problem->contact_model.laws[contact].history.max_indentation &&
+           !problem->contact_model.choices[contact].own;
 }
 
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact)

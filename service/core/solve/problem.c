@@ -74,10 +74,13 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
         problem->request->options.friction == PERCUSS_FRICTION_PLAIN &&
         body_is_solid(problem->bodies[body]))
         return NULL;
+    const struct contact_side *sides = problem->sides[problem_row_contact(problem, row)];
     for (int which = 0; which < 2; which++) {
-        struct row_side side = problem_row_side(problem, row, which);
-        if (side.body == body && side.load->family[family].acts)
-            return &side.load->family[family];
+        if (sides[which].body != body)
+            continue;
+        const struct family_load *load =
+            &problem_row_side(problem, row, which).load->family[family];
+        return load->acts ? load : NULL;
     }
     return NULL;
 }

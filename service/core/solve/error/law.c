@@ -238,8 +238,8 @@ double law_error_worst(const struct problem *problem, const struct impact_outcom
 
 static bool is_unstated(const struct problem *problem, size_t contact, int which)
 {
-    if (problem->contact_model.choices[contact].own ||
-        !problem_body(problem, contact, which)->yield_unstated)
+    if (!problem_body(problem, contact, which)->yield_unstated ||
+        problem->contact_model.choices[contact].own)
         return false;
     const struct material *material = problem_material(problem, contact, which);
     return isinf(material->yield) && plausible_metal(material->young, material->density);
@@ -455,10 +455,9 @@ static double stated_loss(const struct problem *problem, size_t contact, double 
 {
     for (int which = 0; which < 2; which++) {
         double loss_factor = problem_body(problem, contact, which)->loss_factor;
-        part[which] = isnan(loss_factor) || has_loss(problem, contact) ||
-                              problem->contact_model.choices[contact].own
-                          ? 0.0
-                          : indentation_share(problem, contact, which) * loss_factor;
+        bool stated = loss_factor > 0.0 && !has_loss(problem, contact) &&
+                      !problem->contact_model.choices[contact].own;
+        part[which] = stated ? indentation_share(problem, contact, which) * loss_factor : 0.0;
     }
     return part[0] + part[1];
 }
