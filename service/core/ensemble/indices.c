@@ -8,16 +8,52 @@
 #include <stdlib.h>
 
 #include "ensemble/sampling.h"
+#include "numeric/random_stream.h"
+#include "numeric/sorting.h"
 #include "numeric/special.h"
 
-/* Samples y(x) sorted by x, and classes of neighbours among them. */
+/* Order by chance, the same for any x. */
+static double random_place(size_t sample)
+{
+    return random_hash(0, (uint32_t)((uint64_t)sample >> 32), (uint32_t)sample);
+}
 
-/* A sample. */
-struct member {
-    double x, y;    /* y less the mean of all */
-    size_t sample;  /* its place in the order of the points */
-    uint32_t order; /* of equal x: at random, since neighbours of a Sobol sequence are alike */
-};
+/* Samples by ascending x; with `keys`, memory. */
+static bool sort_by(const double *x, double *keys, size_t *samples, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        keys[i] = x ? x[samples[i]] : random_place(samples[i]);
+    return sorting_ascend(keys, samples, count);
+}
+
+static bool has_equals(const double *sorted, size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (sorted[i] == sorted[i - 1])
+            return true;
+    return false;
+}
+
+bool indices_sort(const double *x, const double *y, size_t count, struct indices_point *sorted,
+                  size_t *kept)
+{
+    size_t n = 0, *samples = malloc((count + 1) * sizeof *samples);
+    double *keys = malloc((count + 1) * sizeof *keys);
+    bool good = samples && keys;
+    for (size_t i = 0; good && i < count; i++)
+        if (isfinite(x[i]) && isfinite(y[i]))
+            samples[n++] = i;
+    good = good && sort_by(x, keys, samples, n);
+    /* equal x keep the order they had: one by chance */
+    if (good && has_equals(keys, n))
+        good = sort_by(NULL, keys, samples, n) && sort_by(x, keys, samples, n);
+    for (size_t i = 0; good && i < n; i++)
+        sorted[i] = (struct indices_point){x[samples[i]], y[samples[i]], samples[i]};
+    *kept = good ? n : 0;
+    free(samples);
+    free(keys);
+    return good;
+}
 
 /* Neighbours in x: members [first, end). */
 struct class
@@ -34,18 +70,12 @@ struct class_part {
 struct classes {
     size_t replicates; /* sample i belongs to i mod this; 1: each is independent of all others */
     size_t member_count;
-    struct member *members; /* by ascending x */
-    size_t *place;          /* of each sample among them; SIZE_MAX: a value is missing */
-    double mean, variance;  /* of y */
+    struct indices_point *members; /* by ascending x; y less the mean of all */
+    size_t *place;                 /* of each sample among them; SIZE_MAX: a value is missing */
+    double mean, variance;         /* of y */
     size_t count;
     struct class *list;
     struct class_part *parts; /* [count * replicates]; NULL: not asked for, or of no use */
-};
-
-/* Samples in the order of their points. */
-struct class_samples {
-    const double *x, *y; /* [count]; NAN: a value is missing */
-    size_t count, replicates;
 };
 
 static inline double class_size(const struct class *class)
@@ -53,52 +83,40 @@ static inline double class_size(const struct class *class)
     return (double)(class->end - class->first);
 }
 
-static int indices_compare(const void *a, const void *b)
-{
-    const struct member *p = a, *q = b;
-    if (p->x != q->x)
-        return p->x < q->x ? -1 : 1;
-    return (p->order > q->order) - (p->order < q->order);
-}
-
-/* y becomes the distance from the mean. */
-static void centre(struct classes *classes)
+/* y becomes the distance from the mean, which is summed up in the order of the points. */
+static void centre(struct classes *classes, size_t count)
 {
     double sum = 0.0, squares = 0.0;
-    for (size_t i = 0; i < classes->member_count; i++)
-        sum += classes->members[i].y;
+    for (size_t i = 0; i < count; i++)
+        if (classes->place[i] != SIZE_MAX)
+            sum += classes->members[classes->place[i]].y;
     classes->mean = sum / (double)classes->member_count;
-    for (size_t i = 0; i < classes->member_count; i++) {
-        classes->members[i].y -= classes->mean;
-        squares += classes->members[i].y * classes->members[i].y;
+    for (size_t i = 0; i < count; i++) {
+        if (classes->place[i] == SIZE_MAX)
+            continue;
+        double *y = &classes->members[classes->place[i]].y;
+        *y -= classes->mean;
+        squares += *y * *y;
     }
     classes->variance = squares / ((double)classes->member_count - 1.0);
 }
 
-/* Of those that have both values; no classes yet. False: out of memory. Release it all the same. */
-static bool classes_create(struct classes *classes, const struct class_samples *samples)
+/* No classes yet. False: out of memory. Release it all the same. */
+static bool classes_create(struct classes *classes, const struct indices_data *data)
 {
-    /* room for all samples */
-    const double *x = samples->x, *y = samples->y;
-    size_t count = samples->count;
-    *classes = (struct classes){.replicates = samples->replicates};
-    classes->members = calloc(count + 1, sizeof *classes->members);
-    classes->place = calloc(count + 1, sizeof *classes->place);
-    classes->list = calloc(count + 1, sizeof *classes->list);
+    *classes = (struct classes){.replicates = data->replicates, .member_count = data->kept};
+    classes->members = malloc((data->kept + 1) * sizeof *classes->members);
+    classes->place = malloc((data->count + 1) * sizeof *classes->place);
+    classes->list = malloc((data->kept + 1) * sizeof *classes->list);
     if (!classes->members || !classes->place || !classes->list)
         return false;
-    /* members have both values, and an order by chance among equal x */
-    for (size_t i = 0; i < count; i++) {
-        uint32_t order = random_hash(0, (uint32_t)((uint64_t)i >> 32), (uint32_t)i);
+    for (size_t i = 0; i < data->count; i++)
         classes->place[i] = SIZE_MAX;
-        if (isfinite(x[i]) && isfinite(y[i]))
-            classes->members[classes->member_count++] = (struct member){x[i], y[i], i, order};
+    for (size_t i = 0; i < data->kept; i++) {
+        classes->members[i] = data->sorted[i];
+        classes->place[data->sorted[i].sample] = i;
     }
-    /* by ascending x, and back from a sample to its place */
-    centre(classes);
-    qsort(classes->members, classes->member_count, sizeof *classes->members, indices_compare);
-    for (size_t i = 0; i < classes->member_count; i++)
-        classes->place[classes->members[i].sample] = i;
+    centre(classes, data->count);
     return true;
 }
 
@@ -114,7 +132,7 @@ static void classes_release(struct classes *classes)
  * evenly. Where many have the same x, a class does not reach from one value to the next. */
 static void classes_divide(struct classes *classes, size_t size)
 {
-    const struct member *members = classes->members;
+    const struct indices_point *members = classes->members;
     size_t n = classes->member_count, run = 0; /* end of those with the same x */
     classes->count = 0;
     for (size_t first = 0, end = 0; first < n; first = end) {
@@ -145,7 +163,7 @@ static bool classes_split(struct classes *classes)
         return false;
     for (size_t k = 0; k < classes->count; k++)
         for (size_t i = classes->list[k].first; i < classes->list[k].end; i++) {
-            const struct member *member = &classes->members[i];
+            const struct indices_point *member = &classes->members[i];
             struct class_part *part = &classes->parts[k * replicates + member->sample % replicates];
             part->sum += member->y;
             part->count += 1.0;
@@ -159,7 +177,7 @@ static bool classes_split(struct classes *classes)
 static double class_mean_without(const struct classes *classes, const struct class *class,
                                  size_t member)
 {
-    const struct member *out = &classes->members[member];
+    const struct indices_point *out = &classes->members[member];
     size_t k = (size_t)(class - classes->list), replicates = classes->replicates;
     bool inside = member >= class->first && member < class->end;
     struct class_part part = {inside ? out->y : 0.0, inside};
@@ -192,7 +210,7 @@ static double class_variance(const struct classes *classes, const struct class *
     double sums[SAMPLING_REPLICATES] = {0}, squares[SAMPLING_REPLICATES] = {0};
     double counts[SAMPLING_REPLICATES] = {0};
     for (size_t i = class->first; i < class->end; i++) {
-        const struct member *member = &classes->members[i];
+        const struct indices_point *member = &classes->members[i];
         size_t r = member->sample % replicates;
         counts[r] += 1.0;
         sums[r] += member->y;
@@ -315,7 +333,7 @@ static double find_v(const struct indices_data *data, const struct classes *clas
         if (at == SIZE_MAX || !isfinite(row->y))
             continue;
         /* y and y' less their class means */
-        const struct member *member = &classes->members[at];
+        const struct indices_point *member = &classes->members[at];
         double g = class_mean_without(classes, class_at(classes, member->x), at);
         double anew = class_mean_without(classes, class_at(classes, row->x), at);
         double off = row->y - classes->mean - trust * anew - member->y + trust * g;
@@ -361,7 +379,7 @@ static struct estimate total_order(const struct indices_data *data, const struct
     /* contributions of samples and rows of each replicate to its error */
     double n = (double)classes->member_count, part = (1.0 - total.value) * n / (n - 1.0);
     for (size_t i = 0; i < classes->member_count; i++) {
-        const struct member *member = &classes->members[i];
+        const struct indices_point *member = &classes->members[i];
         struct contribution *one = &each[member->sample % data->replicates];
         /* the variance, by which it is divided, is an estimate too */
         u[i] = part * member->y * member->y - u[i];
@@ -471,11 +489,9 @@ bool indices_find(const struct indices_data *data, struct indices *indices)
     /* unknown where there are too few values */
     static const struct interval unknown = {NAN, NAN};
     *indices = (struct indices){NAN, NAN, unknown, unknown, NAN};
-    /* samples sorted by x */
     struct classes classes;
-    const struct class_samples samples = {data->x, data->y, data->count, data->replicates};
-    double *work = calloc(data->count + data->row_count + 1, sizeof *work);
-    bool good = classes_create(&classes, &samples) && work;
+    double *work = malloc((data->kept + data->row_count + 1) * sizeof *work);
+    bool good = classes_create(&classes, data) && work;
     size_t n = classes.member_count;
     /* both indices where x and y vary */
     if (good && n >= LEAST && classes.members[n - 1].x > classes.members[0].x &&
@@ -497,25 +513,7 @@ bool indices_find(const struct indices_data *data, struct indices *indices)
 /* From this share of the deviation of all samples on, neighbours count as chaotic. */
 static const double CHAOTIC = 0.5;
 
-static int influence_compare(const void *a, const void *b)
-{
-    const struct influence_pair *p = a, *q = b;
-    if (p->x != q->x)
-        return p->x < q->x ? -1 : 1;
-    return (p->y > q->y) - (p->y < q->y);
-}
-
-size_t influence_sort(struct influence_pair *pairs, size_t count)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < count; i++)
-        if (isfinite(pairs[i].x) && isfinite(pairs[i].y))
-            pairs[kept++] = pairs[i];
-    qsort(pairs, kept, sizeof *pairs, influence_compare);
-    return kept;
-}
-
-static double mean_of(const struct influence_pair *pairs, size_t count)
+static double mean_of(const struct indices_point *pairs, size_t count)
 {
     double sum = 0.0;
     for (size_t i = 0; i < count; i++)
@@ -524,7 +522,7 @@ static double mean_of(const struct influence_pair *pairs, size_t count)
 }
 
 /* Sum of squared differences from the mean. */
-static double scatter_of(const struct influence_pair *pairs, size_t count)
+static double scatter_of(const struct indices_point *pairs, size_t count)
 {
     double mean = mean_of(pairs, count), sum = 0.0;
     for (size_t i = 0; i < count; i++)
@@ -534,7 +532,7 @@ static double scatter_of(const struct influence_pair *pairs, size_t count)
 
 /* Root mean square difference over sqrt 2 of pairs one to two resolutions apart, the first of them
  * among [first, end). */
-static double local_deviation(const struct influence_pair *sorted, size_t count, size_t first,
+static double local_deviation(const struct indices_point *sorted, size_t count, size_t first,
                               size_t end, double resolution)
 {
     double sum = 0.0;
@@ -553,7 +551,7 @@ static double local_deviation(const struct influence_pair *sorted, size_t count,
     return found >= 3 ? sqrt(0.5 * sum / (double)found) : NAN;
 }
 
-void influence_parts(const struct influence_pair *sorted, size_t count, double resolution,
+void influence_parts(const struct indices_point *sorted, size_t count, double resolution,
                      struct influence_part *parts, size_t part_count)
 {
     if (count == 0)

@@ -12,17 +12,29 @@
 
 #include "ensemble/interval.h"
 
-/* A sample solved again with this input alone drawn anew. */
+/* A sample, by its place in the order of the points. */
+struct indices_point {
+    double x, y;
+    size_t sample;
+};
+
+/* The samples that have both numbers (NAN: missing), by ascending x, of equal x at random, since
+ * neighbours of a Sobol sequence are alike; and how many they are. `sorted` has room for `count`.
+ * False: out of memory. */
+bool indices_sort(const double *x, const double *y, size_t count, struct indices_point *sorted,
+                  size_t *kept);
+
+/* A sample solved again with this input alone drawn anew (y NAN: it was refused). */
 struct indices_row {
     size_t sample;
     double x, y;
 };
 
-/* Samples in the order of their points; sample i belongs to the independent replicate i mod R (1:
- * plain random points). NAN: a value is missing. */
+/* Sample i belongs to the independent replicate i mod R (1: plain random points). */
 struct indices_data {
-    size_t count;
-    const double *x, *y; /* [count] */
+    size_t count; /* of all samples */
+    const struct indices_point *sorted;
+    size_t kept; /* in `sorted` */
     size_t replicates;
     size_t row_count; /* 0: no total index */
     const struct indices_row *rows;
@@ -55,16 +67,7 @@ struct indices {
 /* False: out of memory. */
 bool indices_find(const struct indices_data *data, struct indices *indices);
 
-/* Where along an input the answer is smooth: from the samples alone, for any sampling. NAN: a value
- * is missing. */
-
-/* A pair of numbers to be sorted by x. */
-struct influence_pair {
-    double x, y;
-};
-
-/* Drops pairs with a NAN and sorts the others by x. Returns how many they are. */
-size_t influence_sort(struct influence_pair *pairs, size_t count);
+/* Where along an input the answer is smooth: from the samples alone, for any sampling. */
 
 /* y along x in one of equal parts of the range of x. */
 struct influence_part {
@@ -78,7 +81,7 @@ struct influence_part {
 };
 
 /* Fills `parts`; `resolution` of x. */
-void influence_parts(const struct influence_pair *sorted, size_t count, double resolution,
+void influence_parts(const struct indices_point *sorted, size_t count, double resolution,
                      struct influence_part *parts, size_t part_count);
 
 #endif

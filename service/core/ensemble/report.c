@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numeric/sorting.h"
+
 static const double REPORT_LEVEL = 0.95; /* of all intervals */
 
 static const double default_quantiles[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
@@ -64,8 +66,8 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     /* and whether the bounds asked for are met */
     bool mean_enough = spec->half_width == 0.0 || progress.half_width <= spec->half_width;
     if (quantiles && mean_enough && spec->quantile_half_width > 0.0) {
-        sample.kept = summary_sort(values, done, sorted);
-        progress.quantile_half_width = widest_quantile(ensemble, &sample);
+        bool sorts = summary_sort(values, done, sorted, &sample.kept);
+        progress.quantile_half_width = sorts ? widest_quantile(ensemble, &sample) : INFINITY;
     }
     progress.enough = mean_enough && (spec->quantile_half_width == 0.0 ||
                                       progress.quantile_half_width <= spec->quantile_half_width);
@@ -75,19 +77,21 @@ struct report_progress report_progress(const struct ensemble *ensemble,
 
 /* Accuracy of the one model for all samples. */
 
-/* Largest difference of the quantiles of two samples of equal size, which are sorted here. */
-static double quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count)
+/* Largest difference of the quantiles of two samples of equal size, which are sorted here. False:
+ * out of memory. */
+static bool quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count,
+                           double *shift)
 {
     const double *probabilities;
     size_t quantiles;
-    double worst = 0.0;
+    *shift = 0.0;
     report_probabilities(spec, &probabilities, &quantiles);
-    summary_sort(a, count, a);
-    summary_sort(b, count, b);
+    if (!sorting_ascend(a, NULL, count) || !sorting_ascend(b, NULL, count))
+        return false;
     for (size_t i = 0; i < quantiles; i++)
-        worst = fmax(worst, fabs(summary_quantile(a, count, probabilities[i]) -
-                                 summary_quantile(b, count, probabilities[i])));
-    return worst;
+        *shift = fmax(*shift, fabs(summary_quantile(a, count, probabilities[i]) -
+                                   summary_quantile(b, count, probabilities[i])));
+    return true;
 }
 
 /* Restitutions of the same samples by both ways, and their differences. */
@@ -155,10 +159,10 @@ static bool verification_fill(struct ensemble_report *report, const struct ensem
     out->deviation_shift = summary_moments(comparison.fast, out->count).deviation -
                            summary_moments(comparison.searched, out->count).deviation;
     /* and to the quantiles, last as these sort the values */
-    out->quantile_shift =
-        quantile_shift(&ensemble->spec, comparison.fast, comparison.searched, out->count);
+    bool good = quantile_shift(&ensemble->spec, comparison.fast, comparison.searched, out->count,
+                               &out->quantile_shift);
     free(memory);
-    return true;
+    return good;
 }
 
 /* The warnings of an ensemble: the warnings of single impacts, counted, and its own. */
@@ -467,12 +471,12 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
             .count = report->done,
             .replicates = ensemble->sampling.replicates,
             .sorted = sorted,
-            .kept = summary_sort(values, report->done, sorted),
             .level = REPORT_LEVEL,
         };
         /* its statistics */
         report->quantities[q].name = names[q];
-        good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
+        good = summary_sort(values, report->done, sorted, &sample.kept) &&
+               fill_quantity(report, ensemble, &report->quantities[q], &sample);
         if (good && q == 0)
             fill_shape(report, ensemble, sorted);
     }
@@ -505,17 +509,17 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
     return true;
 }
 
-static bool fill_input(struct report_input *out, struct influence_pair *pairs, size_t kept,
+static bool fill_input(struct report_input *out, const struct indices_point *sorted, size_t kept,
                        struct arena *arena)
 {
     out->parts = arena_take(arena, REPORT_PARTS, sizeof *out->parts);
     if (!out->parts)
         return false;
-    double range = kept ? pairs[kept - 1].x - pairs[0].x : 0.0;
+    double range = kept ? sorted[kept - 1].x - sorted[0].x : 0.0;
     out->resolution = 0.01 * range;
     if (range > 0.0) {
         out->part_count = REPORT_PARTS;
-        influence_parts(pairs, kept, out->resolution, out->parts, REPORT_PARTS);
+        influence_parts(sorted, kept, out->resolution, out->parts, REPORT_PARTS);
     }
     return true;
 }
@@ -559,22 +563,22 @@ static bool find_indices(const struct report_material *material, const struct en
 /* Values of an input by sample, and the answers. */
 struct columns {
     double *x, *y;
-    struct influence_pair *pairs;
+    struct indices_point *sorted;
 };
 
 static bool take_columns(struct columns *columns, size_t count)
 {
     columns->x = malloc((count + 1) * sizeof *columns->x);
     columns->y = malloc((count + 1) * sizeof *columns->y);
-    columns->pairs = malloc((count + 1) * sizeof *columns->pairs);
-    return columns->x && columns->y && columns->pairs;
+    columns->sorted = malloc((count + 1) * sizeof *columns->sorted);
+    return columns->x && columns->y && columns->sorted;
 }
 
 static void release_columns(struct columns *columns)
 {
     free(columns->x);
     free(columns->y);
-    free(columns->pairs);
+    free(columns->sorted);
 }
 
 /* One input's influence on a quantity. */
@@ -590,18 +594,17 @@ static bool fill_influence(struct ensemble_report *report, const struct ensemble
         ensemble_inputs(ensemble, k, values);
         columns->x[k] = values[out->input];
         columns->y[k] = varies ? value_of(&material->samples[k], quantity) : NAN;
-        columns->pairs[k] = (struct influence_pair){columns->x[k], columns->y[k]};
     }
     /* how the quantity depends on them */
     out->quantity = names[quantity];
     out->values = summary_moments(columns->x, n);
     struct indices_data data = {.count = n,
-                                .x = columns->x,
-                                .y = columns->y,
+                                .sorted = columns->sorted,
                                 .replicates = ensemble->sampling.replicates,
                                 .level = REPORT_LEVEL};
-    return find_indices(material, ensemble, quantity, out, &data) &&
-           fill_input(out, columns->pairs, influence_sort(columns->pairs, n), &report->memory);
+    return indices_sort(columns->x, columns->y, n, columns->sorted, &data.kept) &&
+           find_indices(material, ensemble, quantity, out, &data) &&
+           fill_input(out, columns->sorted, data.kept, &report->memory);
 }
 
 static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,

@@ -4,9 +4,9 @@
 #include "ensemble/summary.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "numeric/sorting.h"
 #include "numeric/special.h"
 
 /* Values that differ by less, relative to their size, differ by rounding: some thousand steps of
@@ -66,20 +66,13 @@ struct moments summary_moments(const double *values, size_t count)
     return moments;
 }
 
-static int summary_compare(const void *a, const void *b)
+bool summary_sort(const double *values, size_t count, double *sorted, size_t *kept)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-size_t summary_sort(const double *values, size_t count, double *sorted)
-{
-    size_t kept = 0;
+    *kept = 0;
     for (size_t i = 0; i < count; i++)
         if (isfinite(values[i]))
-            sorted[kept++] = values[i];
-    qsort(sorted, kept, sizeof *sorted, summary_compare);
-    return kept;
+            sorted[(*kept)++] = values[i];
+    return sorting_ascend(sorted, NULL, *kept);
 }
 
 double summary_quantile(const double *sorted, size_t count, double p)

@@ -27,8 +27,9 @@ struct moments summary_moments(const double *values, size_t count);
 /* Whether the values differ by more than rounding. False for less than two. */
 bool summary_varies(const struct moments *moments);
 
-/* The finite values, ascending, in `sorted` (room for `count`). Returns how many they are. */
-size_t summary_sort(const double *values, size_t count, double *sorted);
+/* The finite values, ascending, in `sorted` (room for `count`; may be `values`), and how many they
+ * are. False: out of memory. */
+bool summary_sort(const double *values, size_t count, double *sorted, size_t *kept);
 
 /* Quantile at probability p of ascending values, linear between them (Hyndman and Fan 1996, type
  * 7). NAN without values. */

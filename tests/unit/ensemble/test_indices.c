@@ -103,16 +103,21 @@ static struct trial *make(const struct function *function, enum sampling_method 
     return &trial;
 }
 
+static struct indices_data plain_data(const double *x, const double *y, size_t count)
+{
+    static struct indices_point sorted[MOST_SAMPLES];
+    struct indices_data data = {.count = count, .sorted = sorted, .replicates = 1, .level = 0.95};
+    assert_true(indices_sort(x, y, count, sorted, &data.kept));
+    return data;
+}
+
 static struct indices find(const struct trial *trial, size_t dimension)
 {
     struct indices indices;
-    const struct indices_data data = {.count = trial->count,
-                                      .x = trial->x[dimension],
-                                      .y = trial->y,
-                                      .replicates = trial->sampling.replicates,
-                                      .row_count = trial->row_count,
-                                      .rows = trial->rows[dimension],
-                                      .level = 0.95};
+    struct indices_data data = plain_data(trial->x[dimension], trial->y, trial->count);
+    data.replicates = trial->sampling.replicates;
+    data.row_count = trial->row_count;
+    data.rows = trial->rows[dimension];
     assert_true(indices_find(&data, &indices));
     return indices;
 }
@@ -230,8 +235,7 @@ static void noise_is_honest(void **state)
     for (uint64_t seed = 1; seed <= TRIALS; seed++) {
         const struct trial *trial = make(&function, SAMPLING_IS_PLAIN, 256, seed);
         struct indices alone, indices = find(trial, 2);
-        const struct indices_data data = {
-            .count = trial->count, .x = trial->x[2], .y = trial->y, .replicates = 1, .level = 0.95};
+        const struct indices_data data = plain_data(trial->x[2], trial->y, trial->count);
         assert_true(indices_find(&data, &alone));
         assert_true(isnan(alone.total) && isnan(alone.total_bounds.low));
         below += alone.first_order <= alone.noise;
@@ -294,10 +298,10 @@ static void too_few_say_nothing(void **state)
     (void)state;
     const double x[20] = {0.0}, y[20] = {1.0}, some[20] = {1.0, 2.0, NAN, 4.0};
     struct indices indices;
-    struct indices_data data = {.count = 4, .x = some, .y = some, .replicates = 1, .level = 0.95};
+    struct indices_data data = plain_data(some, some, 4);
     assert_true(indices_find(&data, &indices));
     assert_true(isnan(indices.first_order) && isnan(indices.total) && isnan(indices.noise));
-    data = (struct indices_data){.count = 20, .x = x, .y = y, .replicates = 1, .level = 0.95};
+    data = plain_data(x, y, 20);
     assert_true(indices_find(&data, &indices));
     assert_true(isnan(indices.first_order) && isnan(indices.first_bounds.high));
 }
