@@ -63,4 +63,7 @@ void ensemble_values(const struct ensemble *ensemble, const double *point, uint6
 /* The inputs of sample `index` < count: spec.input_count values. */
 void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *values);
 
+/* One of them: no other is computed where inputs are independent. */
+double ensemble_input(const struct ensemble *ensemble, uint64_t index, size_t input);
+
 #endif

@@ -590,9 +590,7 @@ static bool fill_influence(struct ensemble_report *report, const struct ensemble
     size_t n = report->done;
     bool varies = summary_varies(&report->quantities[quantity].moments);
     for (size_t k = 0; k < n; k++) {
-        double values[ENSEMBLE_MAX_INPUTS];
-        ensemble_inputs(ensemble, k, values);
-        columns->x[k] = values[out->input];
+        columns->x[k] = ensemble_input(ensemble, k, out->input);
         columns->y[k] = varies ? value_of(&material->samples[k], quantity) : NAN;
     }
     /* how the quantity depends on them */

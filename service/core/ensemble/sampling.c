@@ -131,16 +131,19 @@ static double sobol_coordinate(const struct sampling *sampling, uint64_t index, 
     return random_uniform_of((uint64_t)scrambled << SOBOL_BITS | rest);
 }
 
+double sampling_coordinate(const struct sampling *sampling, uint64_t index, size_t dimension)
+{
+    if (sampling->method == SAMPLING_IS_LATIN_HYPERCUBE)
+        return latin_coordinate(sampling, index, dimension);
+    if (sampling->method == SAMPLING_IS_SOBOL)
+        return sobol_coordinate(sampling, index, dimension);
+    return random_uniform(&sampling->stream, index, dimension);
+}
+
 void sampling_point(const struct sampling *sampling, uint64_t index, double *point)
 {
-    for (size_t d = 0; d < sampling->dimensions; d++) {
-        if (sampling->method == SAMPLING_IS_LATIN_HYPERCUBE)
-            point[d] = latin_coordinate(sampling, index, d);
-        else if (sampling->method == SAMPLING_IS_SOBOL)
-            point[d] = sobol_coordinate(sampling, index, d);
-        else
-            point[d] = random_uniform(&sampling->stream, index, d);
-    }
+    for (size_t d = 0; d < sampling->dimensions; d++)
+        point[d] = sampling_coordinate(sampling, index, d);
 }
 
 /* ---- correlation of the points ---- */

@@ -62,6 +62,9 @@ enum percuss_status sampling_create(struct sampling *sampling, enum sampling_met
 /* Point `index` < count: `dimensions` numbers in (0, 1). */
 void sampling_point(const struct sampling *sampling, uint64_t index, double *point);
 
+/* One of them. */
+double sampling_coordinate(const struct sampling *sampling, uint64_t index, size_t dimension);
+
 /* Correlated inputs by a Gaussian copula: the coefficients are those of the normal scores, whatever
  * the distributions are. */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "ensemble/sampling.h"
+#include "ensemble/ensemble.h"
 
 static struct sampling make(enum sampling_method method, size_t dimensions, uint64_t count)
 {
@@ -158,6 +158,35 @@ static void refuses_too_many_dimensions(void **state)
     assert_non_null(strstr(fault.text, "17 inputs"));
 }
 
+/* Drawn ones, a constant and a list, independent and correlated. */
+static void one_input_is_that_of_all(void **state)
+{
+    (void)state;
+    static const double list[] = {3.0, 1.0, 2.0};
+    struct ensemble_input inputs[] = {
+        {.distribution = DISTRIBUTION_IS_UNIFORM, .first = 1.0, .second = 2.0},
+        {.distribution = DISTRIBUTION_IS_CONSTANT, .first = 5.0},
+        {.distribution = DISTRIBUTION_IS_LIST, .values = list, .value_count = 3},
+        {.distribution = DISTRIBUTION_IS_UNIFORM, .first = -2.0, .second = -1.0},
+    };
+    const struct copula_pair pair = {0, 1, 0.7};
+    for (unsigned method = 0; method < 2 * SAMPLING_METHODS; method++) {
+        struct fault fault;
+        struct ensemble ensemble = {.spec = {.inputs = inputs, .input_count = 4},
+                                    .sampling = make(method / 2, 2, 100),
+                                    .drawn = {3, 0}};
+        assert_int_equal(copula_create(&ensemble.copula, 2, &pair, method % 2, &fault), PERCUSS_OK);
+        for (uint64_t i = 0; i < 100; i++) {
+            double values[4];
+            ensemble_inputs(&ensemble, i, values);
+            assert_true(values[1] == 5.0 && values[2] == list[i % 3]);
+            for (size_t k = 0; k < 4; k++)
+                assert_true(ensemble_input(&ensemble, i, k) == values[k]);
+        }
+        ensemble_release(&ensemble);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -168,6 +197,7 @@ int main(void)
         cmocka_unit_test(sobol_has_property_a),
         cmocka_unit_test(better_points_have_smaller_errors),
         cmocka_unit_test(refuses_too_many_dimensions),
+        cmocka_unit_test(one_input_is_that_of_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
