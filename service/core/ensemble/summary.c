@@ -178,15 +178,53 @@ double shape_kolmogorov_p(double distance, double n)
     return x < 0.2 ? 1.0 : fmax(0.0, fmin(2.0 * sum, 1.0)); /* below 0.2 it is 1 to 1e-12 */
 }
 
+/* Ascending values beside a fitted distribution. */
+struct beside {
+    const double *sorted;
+    double n;
+    const struct beta_fit *fit;
+};
+
+/* A value by its index, and the fitted distribution function there. */
+struct fitted {
+    size_t index;
+    double f;
+};
+
+static struct fitted fitted_at(const struct beside *beside, size_t index)
+{
+    const struct beta_fit *fit = beside->fit;
+    double x = (beside->sorted[index] - fit->low) / (fit->high - fit->low);
+    return (struct fitted){index, special_beta_cdf(fit->alpha, fit->beta, x)};
+}
+
+/* The largest distance that values from `first` to `last` may have, as both functions ascend; of
+ * one value that which it has. */
+static double distance_bound(const struct beside *beside, struct fitted first, struct fitted last)
+{
+    return fmax(last.f - (double)first.index / beside->n,
+                (double)(last.index + 1) / beside->n - first.f);
+}
+
+/* The largest distance of the values between, or `worst` if that is larger. Where the bound says so
+ * none of them is looked at. */
+static double distance_between(const struct beside *beside, struct fitted first, struct fitted last,
+                               double worst)
+{
+    if (last.index - first.index < 2 || distance_bound(beside, first, last) <= worst)
+        return worst;
+    struct fitted middle = fitted_at(beside, first.index + (last.index - first.index) / 2);
+    worst = fmax(worst, distance_bound(beside, middle, middle));
+    worst = distance_between(beside, first, middle, worst);
+    return distance_between(beside, middle, last, worst);
+}
+
 static double distance_from_beta(const double *sorted, size_t n, const struct beta_fit *fit)
 {
-    double worst = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        double x = (sorted[i] - fit->low) / (fit->high - fit->low);
-        double f = special_beta_cdf(fit->alpha, fit->beta, x);
-        worst = fmax(worst, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
-    }
-    return worst;
+    const struct beside beside = {sorted, (double)n, fit};
+    struct fitted first = fitted_at(&beside, 0), last = fitted_at(&beside, n - 1);
+    double ends = fmax(distance_bound(&beside, first, first), distance_bound(&beside, last, last));
+    return distance_between(&beside, first, last, ends);
 }
 
 struct beta_fit shape_fit_beta(const double *sorted, const struct moments *moments,

@@ -43,6 +43,17 @@ static double beta_quantile(double p)
     return low;
 }
 
+/* The distance from the fit, of all values one by one. */
+static double distance_by_all(const double *values, size_t n, const struct beta_fit *fit)
+{
+    double worst = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        double f = special_beta_cdf(fit->alpha, fit->beta, values[i]);
+        worst = fmax(worst, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
+    }
+    return worst;
+}
+
 static void fits_a_beta(void **state)
 {
     (void)state;
@@ -55,6 +66,7 @@ static void fits_a_beta(void **state)
     near(fit.alpha, 2.0, 0.01);
     near(fit.beta, 3.0, 0.01);
     near(fit.distance, 0.5 / N, 1e-3);
+    near(fit.distance, distance_by_all(values, N, &fit), 0.0);
     assert_true(fit.p_value > 0.99);
 }
 
@@ -67,6 +79,16 @@ static void refuses_two_peaks(void **state)
     struct moments moments = summary_moments(values, 400);
     struct beta_fit fit = shape_fit_beta(values, &moments, &unit);
     assert_true(fit.alpha > 0.0 && fit.distance > 0.1 && fit.p_value < 1e-4);
+    near(fit.distance, distance_by_all(values, 400, &fit), 0.0);
+    /* few values */
+    for (size_t n = 2; n < 8; n++) {
+        for (size_t i = 0; i < n; i++)
+            values[i] = 0.1 * (double)((i + 1) * (i + n) % 11);
+        assert_true(summary_sort(values, n, values, &(size_t){0}));
+        moments = summary_moments(values, n);
+        fit = shape_fit_beta(values, &moments, &unit);
+        near(fit.distance, distance_by_all(values, n, &fit), 0.0);
+    }
 }
 
 static void has_none_without_a_range(void **state)
