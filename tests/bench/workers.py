@@ -196,10 +196,11 @@ def mean(parts: list[tuple[int, bool, float]]) -> float:
 
 class Measured:
     """What one ensemble of a load costs, s: all that does not grow with the samples is `fixed`, what the first process
-    alone does for one of them is `alone`."""
+    alone does for one of them is `alone`: the least of some runs each, as it is a small part of all."""
 
     def __init__(self, load: str) -> None:
-        few, many = Run(load, SAMPLES[load] // 4), Run(load, SAMPLES[load])
+        few = min((Run(load, SAMPLES[load] // 4) for _ in range(TIMES)), key=lambda run: run.alone)
+        many = min((Run(load, SAMPLES[load]) for _ in range(TIMES)), key=lambda run: run.alone)
         self.sample = mean(many.samples)
         self.extras, self.extra = sum(part[0] for part in many.extras), mean(many.extras)
         self.take = many.takes / sum(part[0] for part in many.samples + many.extras)
