@@ -103,6 +103,7 @@ struct percuss_sub_impact loop_sub_impact(const struct solve_contact_result *fro
         .compression_end = one->compression_end,
         .end = one->end,
         .compression_impulse = one->compression_impulse,
+        .peak_force = one->peak_force,
         .impulse = one->impulse,
         .impulse_tangential = {one->impulse_tangential[0], one->impulse_tangential[1]}};
 }

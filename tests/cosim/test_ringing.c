@@ -205,8 +205,8 @@ static void impulses_belong_to_the_centre_of_the_force(void **state)
         }
         loop_free(loop);
     }
-    /* 0.044 and 0.205 were seen: vibration bends the force away from the shape that is assumed */
-    assert_true(worst <= 0.06);
+    /* 0.038 and 0.165 were seen: vibration bends the force away from the shape that is assumed */
+    assert_true(worst <= 0.042);
     assert_true(worst_peak >= 3.0 * worst);
     lab_free(lab);
 }

@@ -52,8 +52,9 @@ PERCUSS_API void percuss_slow_gap_rate_after(size_t n, const double *W, const do
 struct percuss_sub_impact; /* percuss/reply.h */
 
 /* The centre in time of a sub-impact's force, s from the stated instant: an impulse applied then
- * leaves the positions that the force would. Each half of a Hertzian force, about a sine to the
- * power of 1.5, has its centre at 0.326 of its length from the peak. */
+ * leaves the positions that the force would. From the impulses, lengths and the peak of its two
+ * halves: within 1e-3 of its length where the bodies do not vibrate, else within some hundredths.
+ */
 PERCUSS_API double percuss_slow_force_centre(const struct percuss_sub_impact *sub);
 
 /* Two bodies that touch, or nearly, as the engine sees them now. */

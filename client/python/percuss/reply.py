@@ -33,8 +33,15 @@ def force_centres(sub_impacts: NDArray[np.void]) -> FloatArray:
     the positions that the force would. As percuss_slow_force_centre of libpercuss-slowscale."""
     start, peak, end = (sub_impacts[name] for name in ("start", "compression_end", "end"))
     impulse, compression = sub_impacts["impulse"], sub_impacts["compression_impulse"]
-    # each half of a Hertzian force has its centre at 0.326 of its length from the peak
-    moment = 0.326 * ((impulse - compression) * (end - peak) - compression * (peak - start))
+    force = sub_impacts["peak_force"]
+
+    def half_moment(part: FloatArray, length: FloatArray) -> FloatArray:
+        most = force * length
+        mean = np.clip(np.divide(part, most, out=np.zeros(len(part)), where=most > 0.0), 0.5436, 1.0)
+        moment: FloatArray = part * length * mean * (0.5 + 0.195 * (1.0 - mean))
+        return moment
+
+    moment = half_moment(impulse - compression, end - peak) - half_moment(compression, peak - start)
     shift = np.divide(moment, impulse, out=np.zeros(len(impulse)), where=impulse > 0.0)
     centres: FloatArray = np.clip(peak + shift, start, end)
     return centres

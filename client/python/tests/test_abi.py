@@ -177,6 +177,7 @@ class Abi(unittest.TestCase):
         subs["end"] = subs["compression_end"] + [1e-4, 5e-4, 1e-4, 0.0]
         subs["impulse"] = [0.02, 0.03, 0.01, 0.0]
         subs["compression_impulse"] = [0.01, 0.011, 0.009, 0.0]
+        subs["peak_force"] = [170.0, 99.0, 50.0, 0.0]
         expected = [in_c(_abi.SubImpact.from_buffer_copy(one.tobytes())) for one in subs]
         self.assertEqual(percuss.force_centres(subs).tolist(), expected)
         self.assertEqual(expected[0], 1e-4)
