@@ -30,7 +30,7 @@ CASES = [
     # LSODA's matrices take minutes of more modes
     for method in (("RK45", "DOP853", "LSODA") if modes < 40 else ("RK45", "DOP853"))
     for tolerance in (1e-3, 1e-5, 1e-7)
-]
+] + [(10, method, 1e-9) for method in ("RK45", "DOP853", "LSODA")]  # for bodies without modes
 
 
 def event(function, direction):
