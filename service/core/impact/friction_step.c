@@ -153,11 +153,26 @@ bool friction_step_slid(const struct friction_step *step, size_t i)
     return step->now[i].stuck == 0.0;
 }
 
+/* The tangent of the angle by which the slip turns between a step's start and its last node, up to
+ * which its way needs no points between the nodes where the contact slides throughout: each of its
+ * parts then turns by some degrees, of which the walk leaves little (unit/contact/test_friction.c).
+ * Without a limit two_inverse_masses (physics/test_delassus.c) is wrong by twice its tolerance. */
+static const double TURNS_LITTLE = 0.2;
+
+static bool turns_little(const struct friction_step *step, const struct friction_way *way)
+{
+    const struct slip_place start = slip_place_at(way, &step->points->start);
+    const struct slip_place last = slip_place_at(way, &step->points->node[NODES - 1]);
+    const double *from = start.rate, *to = last.rate;
+    double across = from[1] * to[2] - from[2] * to[1];
+    return fabs(across) <= TURNS_LITTLE * (from[1] * to[1] + from[2] * to[2]);
+}
+
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
                          const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES])
 {
-    bool slides = friction_step_slid(step, i) && step->now[i].line &&
+    bool slides = friction_step_slid(step, i) && turns_little(step, way) &&
                   walk_nodes(step, i, way, false, normal, force, stiffness);
     if (!slides)
         walk_nodes(step, i, way, true, normal, force, stiffness);

@@ -50,8 +50,8 @@ void friction_step_predict(const struct friction_step *step, const struct scene 
 
 /* Walks friction `i` from the present to the nodes: force[j][node] becomes the force of row t_j, N,
  * stiffness[j][node] its slope by that row's d, N/m. Between two nodes the way has two parts, or
- * one where the contact slides throughout along a line. `normal`: the contact's forces there, as
- * the iteration left them. */
+ * one where the contact slides throughout and the slip hardly turns. `normal`: the contact's forces
+ * there, as the iteration left them. */
 void friction_step_nodes(struct friction_step *step, size_t i, const struct friction_way *way,
                          const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES]);
