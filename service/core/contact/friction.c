@@ -219,7 +219,8 @@ void friction_touch(struct friction *friction, const struct contact_law *law, do
     friction->over_ratio[0] = kappa[2] / square;
     friction->over_ratio[1] = -kappa[1] / square;
     friction->over_ratio[2] = kappa[0] / square;
-    friction->indentation = friction->normal = friction->stuck = 0.0;
+    friction->indentation = friction->stuck = 0.0;
+    friction->at = (struct friction_normal){.indentation = 0.0};
     friction->displacement[0] = friction->displacement[1] = 0.0;
     friction->spacing = 0.0;
     if (law->operations->curve)
@@ -250,17 +251,11 @@ static size_t last_closed(const struct friction *friction, double indentation)
     return i;
 }
 
-/* The normal law at an indentation, which counts from the bottom of the branch's dent. */
-struct normal {
-    double indentation, force, slope;
-    size_t last; /* cell closed in part */
-};
-
-static struct normal normal_on_branch(const struct friction *friction, double indentation)
+static struct friction_normal normal_on_branch(const struct friction *friction, double indentation)
 {
     const struct friction_branch *branch = &friction->branch;
     double back = indentation + friction->law->history.dent - branch->dent;
-    struct normal at = {.indentation = larger(smaller(back, branch->span), 0.0)};
+    struct friction_normal at = {.indentation = larger(smaller(back, branch->span), 0.0)};
     at.force = branch_force(branch, sqrt(at.indentation / branch->span), &at.slope);
     size_t last = friction->placed - 1;
     double place = at.slope / friction->spacing;
@@ -268,9 +263,9 @@ static struct normal normal_on_branch(const struct friction *friction, double in
     return at;
 }
 
-static struct normal normal_at(const struct friction *friction, double indentation)
+static struct friction_normal normal_at(const struct friction *friction, double indentation)
 {
-    struct normal at = {.indentation = 0.0};
+    struct friction_normal at = {.indentation = 0.0};
     if (!(indentation > 0.0))
         return at;
     if (friction->spacing > 0.0)
@@ -282,7 +277,8 @@ static struct normal normal_at(const struct friction *friction, double indentati
 }
 
 /* The stiffness of a cell over kappa. */
-static double cell_stiffness(const struct friction *friction, size_t i, const struct normal *at)
+static double cell_stiffness(const struct friction *friction, size_t i,
+                             const struct friction_normal *at)
 {
     if (i < at->last)
         return friction->stiffness[i];
@@ -290,7 +286,8 @@ static double cell_stiffness(const struct friction *friction, size_t i, const st
 }
 
 /* The normal force that a cell bears. */
-static double cell_share(const struct friction *friction, size_t i, const struct normal *at)
+static double cell_share(const struct friction *friction, size_t i,
+                         const struct friction_normal *at)
 {
     double below = at->indentation - friction->edge[i];
     if (i > at->last || !(below > 0.0))
@@ -661,11 +658,11 @@ static void cell_open(struct friction *friction, size_t i, double before, double
 }
 
 /* A way leaves the line by an elastic force across it that is more than rounding of the limit. */
-static bool stays_on_line(const struct friction *friction, const struct normal *to,
+static bool stays_on_line(const struct friction *friction, const struct friction_normal *to,
                           const struct walk *walk)
 {
     return friction->line &&
-           fabs(walk->moved[1]) * to->slope <= STRAIGHT * larger(to->force, friction->normal);
+           fabs(walk->moved[1]) * to->slope <= STRAIGHT * larger(to->force, friction->at.force);
 }
 
 /* A way shorter than this share of the indentation has the stiffness of its end: differences of
@@ -674,7 +671,7 @@ static const double SHORT = 1e-6;
 
 /* The ends of a walk's way >= 0, and whether the branch has moved between them. */
 struct span {
-    struct normal from, to;
+    struct friction_normal from, to;
     bool yielded, is_short;
 };
 
@@ -722,7 +719,7 @@ static void fill_strip(struct friction *friction, const struct span *span, size_
 
 static void walk_cells(struct friction *friction, const struct span *span, struct walk *walk)
 {
-    const struct normal *from = &span->from, *to = &span->to;
+    const struct friction_normal *from = &span->from, *to = &span->to;
     size_t closed = to->last < from->last ? to->last : from->last;
     size_t end = (to->last > from->last ? to->last : from->last) + 1;
     struct strip strip;
@@ -859,13 +856,13 @@ void friction_walk_curved(struct friction *friction, double indentation,
             find_area(indentation - before, walk.moved, rate[0], heading, area);
     }
     if (before > 0.0 || indentation > 0.0) {
-        struct span span = {.from = normal_at(friction, before)};
+        struct span span = {.from = friction->at};
         span.yielded = friction->spacing > 0.0 && follow_branch(friction, indentation);
         span.to = normal_at(friction, indentation);
         double way = fabs(span.to.indentation - span.from.indentation);
         span.is_short = !(way > SHORT * larger(span.to.indentation, span.from.indentation));
         walk_cells(friction, &span, &walk);
-        friction->normal = span.to.force;
+        friction->at = span.to;
         correct_loss(friction, &span, area, &walk);
     }
     friction->indentation = indentation;
@@ -887,10 +884,9 @@ void friction_force(const struct friction *friction, double force[2])
 
 double friction_stored(const struct friction *friction)
 {
-    const struct normal at = normal_at(friction, friction->indentation);
     double sum = 0.0;
-    for (size_t i = 0; at.indentation > 0.0 && i <= at.last; i++) {
-        double stiffness = cell_stiffness(friction, i, &at);
+    for (size_t i = 0; friction->at.indentation > 0.0 && i <= friction->at.last; i++) {
+        double stiffness = cell_stiffness(friction, i, &friction->at);
         const double force[2] = {friction->traction[0][i], friction->traction[1][i]};
         if (stiffness > 0.0)
             sum += over_ratio(friction->over_ratio, force[0], force[1], force) / (2.0 * stiffness);

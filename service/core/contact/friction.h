@@ -33,6 +33,12 @@ struct friction_branch {
     double force[FRICTION_BRANCH + 1]; /* N */
 };
 
+/* The normal law at an indentation, which counts from the bottom of the branch's dent; 0: open. */
+struct friction_normal {
+    double indentation, force, slope;
+    size_t last; /* cell closed in part */
+};
+
 struct friction {
     const struct contact_law *law; /* borrowed */
     double coefficient;            /* mu > 0 */
@@ -54,7 +60,7 @@ struct friction {
     bool isotropic, line; /* kappa is a number; all along the axis */
     double indentation;
     double displacement[2];
-    double normal;     /* force of the law there, N */
+    struct friction_normal at; /* that indentation */
     double stuck;      /* sum of the stiffnesses of cells that stick, N/m, not times kappa */
     double resists[3]; /* slope of the force by the displacement along each tangent, N/m: of cells
                           that stick, and across the force of those that slip; and between both */

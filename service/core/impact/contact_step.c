@@ -505,10 +505,11 @@ static void walk_nodes(struct contact_step *step, const struct scene *scene, siz
 /* Shortens a tangential force to its limit. */
 static void keep_limit(double *x, double *y, double limit)
 {
-    double size = hypot(*x, *y);
-    if (size > limit) {
-        *x *= limit / size;
-        *y *= limit / size;
+    double square = *x * *x + *y * *y;
+    if (square > limit * limit) {
+        double part = limit / sqrt(square);
+        *x *= part;
+        *y *= part;
     }
 }
 

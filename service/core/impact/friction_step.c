@@ -104,7 +104,7 @@ void friction_step_predict(const struct friction_step *step, const struct scene 
                     (by[0] * taken[0] + by[1] * taken[1]) + (by[2] * taken[2] + by[3] * taken[3]);
             }
             double over = next[0] > 0.0 ? 1.0 / next[0] : 0.0;
-            double share = over * hypot(next[1], next[2]);
+            double share = over * sqrt(next[1] * next[1] + next[2] * next[2]);
             if (share > friction->coefficient)
                 over *= friction->coefficient / share;
             for (size_t j = 0; j < 2; j++)
@@ -117,7 +117,7 @@ void friction_step_predict(const struct friction_step *step, const struct scene 
  * iteration leaves: so a contact that slides has its coefficient's share to rounding. */
 static double solved_share(const struct friction *friction, double normal)
 {
-    return normal > 0.0 && friction->normal > 0.0 ? normal / friction->normal : 1.0;
+    return normal > 0.0 && friction->at.force > 0.0 ? normal / friction->at.force : 1.0;
 }
 
 /* Walks to the nodes, through the middles between two of them or not. Whether the contact slides

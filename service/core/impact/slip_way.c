@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "impact/simd.h"
 #include "numeric/lagrange.h"
 
 /* The start, the nodes and the end. */
@@ -36,14 +37,11 @@ void slip_points_make(struct slip_points *points)
 struct slip_place slip_place_at(const struct friction_way *way, const struct slip_point *point)
 {
     struct slip_place place = {.at = point->at};
+    const quad by = CONST_QUAD(point->value + 1), by_slope = CONST_QUAD(point->slope + 1);
     for (int r = 0; r < 3; r++) {
-        const double *nodes = way->nodes[r];
-        place.value[r] = point->value[0] * way->start[r];
-        place.rate[r] = point->slope[0] * way->start[r];
-        for (int j = 0; j < NODES; j++) {
-            place.value[r] += point->value[j + 1] * nodes[j];
-            place.rate[r] += point->slope[j + 1] * nodes[j];
-        }
+        const quad nodes = CONST_QUAD(way->nodes[r]);
+        place.value[r] = point->value[0] * way->start[r] + TOTAL(by * nodes);
+        place.rate[r] = point->slope[0] * way->start[r] + TOTAL(by_slope * nodes);
         if (point->count == ALL) {
             place.value[r] += point->value[NODES + 1] * way->end[r];
             place.rate[r] += point->slope[NODES + 1] * way->end[r];
@@ -72,7 +70,7 @@ static double begins_to_stick(const struct friction *friction, const struct slip
         return 0.0;
     double x = kappa[0] * rate[1] + kappa[1] * rate[2];
     double y = kappa[1] * rate[1] + kappa[2] * rate[2];
-    double size = hypot(x, y);
+    double size = sqrt(x * x + y * y);
     double along = x * (kappa[0] * next[1] + kappa[1] * next[2]) +
                    y * (kappa[1] * next[1] + kappa[2] * next[2]);
     double before = size - friction->coefficient * rate[0];
