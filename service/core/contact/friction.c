@@ -354,6 +354,17 @@ EACH_CELL size_t whole(size_t cells)
     return cells / LANES * LANES;
 }
 
+/* Of as many values as lanes. */
+static inline bool any_above_zero(const double *of)
+{
+    return larger(larger(of[0], of[1]), larger(of[2], of[3])) > 0.0;
+}
+
+static inline bool all_one(const double *of)
+{
+    return smaller(smaller(of[0], of[1]), smaller(of[2], of[3])) == 1.0;
+}
+
 /* A cell that has slipped before is at its limit: but for rounding. */
 static const double AT_LIMIT = 1e-12;
 
@@ -367,13 +378,13 @@ EACH_CELL void try_to_stick(const struct walk *walk, size_t n, const double *x, 
         double share = strip->share[i];
         strip->excess[i] = to_x * to_x + to_y * to_y - share * share;
     }
-    size_t first = 0, end = n;
-    while (first < n && !(strip->excess[first] > 0.0))
-        first++;
-    while (end > first && !(strip->excess[end - 1] > 0.0))
-        end--;
-    strip->slips = whole(first);
-    strip->sticks = whole(end + LANES - 1);
+    size_t first = 0, end = whole(n + LANES - 1);
+    while (first < end && !any_above_zero(strip->excess + first))
+        first += LANES;
+    while (end > first && !any_above_zero(strip->excess + end - LANES))
+        end -= LANES;
+    strip->slips = first;
+    strip->sticks = end;
 }
 
 /* Finds the cells up to `closed` that begin to slip on the way. All others have slipped before and
@@ -387,14 +398,17 @@ EACH_CELL void find_begins(const struct walk *walk, size_t closed, const double 
         bool on = strip->stiffness[i] * way >= from[i] * grown &&
                   x[i] * x[i] + y[i] * y[i] - square >= -AT_LIMIT * square;
         strip->left[i] = on || !(strip->excess[i] > 0.0) ? 1.0 : 0.0;
+        strip->x[i] = x[i];
+        strip->y[i] = y[i];
+        strip->limit[i] = from[i];
     }
     size_t first = strip->slips, end = whole(closed);
-    while (first < end && strip->left[first] == 1.0)
-        first++;
-    while (end > first && strip->left[end - 1] == 1.0)
-        end--;
-    strip->begins = whole(first);
-    strip->begun = whole(end + LANES - 1);
+    while (first < end && all_one(strip->left + first))
+        first += LANES;
+    while (end > first && all_one(strip->left + end - LANES))
+        end -= LANES;
+    strip->begins = first;
+    strip->begun = end;
 }
 
 /* Where the forces reach their limits: |force + part way| = from + part grown, `way` elastic. Every
@@ -424,17 +438,6 @@ EACH_CELL void begin_slip(const struct walk *walk, size_t first, size_t end, con
         strip->y[i] = y[i] + part * way[1];
         strip->limit[i] = from[i] + part * grown;
         strip->left[i] = 1.0 - part;
-    }
-}
-
-EACH_CELL void go_on_slipping(const double *from, const double *x, const double *y,
-                              struct strip *strip)
-{
-    for (size_t i = whole(strip->slips); i < whole(strip->sticks); i++) {
-        strip->x[i] = x[i];
-        strip->y[i] = y[i];
-        strip->limit[i] = from[i];
-        strip->left[i] = 1.0;
     }
 }
 
@@ -600,7 +603,6 @@ VECTOR_CLONES static void walk_plane(const struct friction *friction, size_t clo
     if (strip->slips < strip->sticks) {
         size_t edge = closed > strip->slips ? closed : strip->slips;
         find_begins(&way, edge < strip->sticks ? edge : strip->sticks, from, x, y, strip);
-        go_on_slipping(from, x, y, strip);
         begin_slip(&way, strip->begins, strip->begun, from, x, y, strip);
         begin_slip(&way, edge, strip->sticks, from, x, y, strip);
         find_ways(kappa, &way, strip);
