@@ -81,6 +81,10 @@ for scene in rod beam; do
         done
     done
 done
+# a throw with friction, between the tangents
+thrown=$(count beam 1e-3 thrown)
+echo "thrown 1e-3 $thrown" >>"$work/counts"
+[ "$record" = yes ] || compare thrown 1e-3 3 "${thrown% *}" || bad=1
 samples=$(count beam 1e-3 samples | cut -d ' ' -f 1)
 echo "a sample of an ensemble on the beam at 1e-3: $((samples / 100)) instructions"
 fresh=$(count beam 1e-3 sites | cut -d ' ' -f 1)
