@@ -426,6 +426,38 @@ bool convert_announced_server(const percuss_v1_ServerStatus *from, struct percus
     return to->tasks;
 }
 
+UNDEFINER(contact_law, PERCUSS_CONTACT_LAW_FIELDS)
+
+static void convert_law(const percuss_v1_ContactLaw *from, struct percuss_contact_law *to)
+{
+    PERCUSS_CONTACT_LAW_FIELDS(PERCUSS_COPY)
+}
+
+void convert_announced_pair(const percuss_v1_MaterialPair *from, struct percuss_material_pair *to)
+{
+    *to = (struct percuss_material_pair){.friction = NAN};
+    PERCUSS_MATERIAL_PAIR_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    if (from->law._length > 0)
+        convert_law(from->law._buffer, &to->law);
+    else
+        undefine_contact_law(&to->law);
+}
+
+static void convert_term(const percuss_v1_RelaxationTerm *from, struct percuss_relaxation_term *to)
+{
+    PERCUSS_RELAXATION_TERM_FIELDS(PERCUSS_COPY)
+}
+
+static void convert_losses(const percuss_v1_MaterialLosses *from, struct percuss_body *to)
+{
+    to->loss_factor = from->loss_factor;
+    to->rate_reference = from->rate_reference;
+    to->rate_exponent = from->rate_exponent;
+    to->rate_coefficient = from->rate_coefficient;
+    for (uint32_t i = 0; i < from->relaxation._length && i < PERCUSS_MAX_RELAXATION; i++)
+        convert_term(&from->relaxation._buffer[i], &to->relaxation[to->relaxation_count++]);
+}
+
 void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body)
 {
     *body = (struct percuss_body){
@@ -433,7 +465,13 @@ void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *bo
         .radius = wire->radius,
         .tip_radius = wire->tip_radius,
         .supports = {wire->supports[0], wire->supports[1]},
+        .loss_factor = NAN,
+        .rate_reference = NAN,
+        .rate_exponent = NAN,
+        .rate_coefficient = NAN,
     };
+    if (wire->losses._length > 0)
+        convert_losses(wire->losses._buffer, body);
     memcpy(body->id, wire->id, sizeof body->id);
     memcpy(body->shape, wire->shape, sizeof body->shape);
     memcpy(body->material, wire->material, sizeof body->material);

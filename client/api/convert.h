@@ -46,6 +46,7 @@ enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
 /* Copies of servers' announcements. False: no memory, for the tasks, which are the caller's. */
 bool convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to);
 void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body);
+void convert_announced_pair(const percuss_v1_MaterialPair *from, struct percuss_material_pair *to);
 bool convert_announced_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen);
 
 #endif

@@ -3,6 +3,7 @@
 
 /* percuss bodies: the server's catalogue, and its improbable numbers. */
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,14 +13,26 @@
 #include "json_writer.h"
 #include "percuss/plausible.h"
 
-enum { OPTION_CHECK = OPTION_OWN, OPTION_CSV };
+JSON_TABLE(contact_law, PERCUSS_CONTACT_LAW_FIELDS)
+JSON_TABLE(material_pair, PERCUSS_MATERIAL_PAIR_FIELDS)
+
+enum { OPTION_CHECK = OPTION_OWN, OPTION_CSV, OPTION_PAIRS };
 
 static void print_json(const struct percuss_body_list *list)
 {
-    json_t *array = json_array();
+    json_t *bodies = json_array(), *pairs = json_array();
     for (size_t i = 0; i < list->count; i++)
-        json_array_append_new(array, body_to_json(&list->bodies[i]));
-    json_print(json_pack("{so}", "bodies", array));
+        json_array_append_new(bodies, body_to_json(&list->bodies[i]));
+    for (size_t i = 0; i < list->pair_count; i++)
+        json_array_append_new(pairs, json_object_of(material_pair_members(), &list->pairs[i]));
+    json_print(json_pack("{soso}", "bodies", bodies, "pairs", pairs));
+}
+
+/* "0.2 20e-6; 0.1 5e-4": shares and times. */
+static void print_relaxation(const struct percuss_body *body)
+{
+    for (size_t i = 0; i < body->relaxation_count; i++)
+        printf("%s%.17g %.17g", i ? "; " : "", body->relaxation[i].share, body->relaxation[i].time);
 }
 
 static void print_csv(const struct percuss_body_list *list, bool units)
@@ -31,7 +44,9 @@ static void print_csv(const struct percuss_body_list *list, bool units)
         putchar(',');
         csv_head(stdout, percuss_parameter_name(p), units);
     }
-    puts(",description");
+    fputs(",description,", stdout);
+    csv_head(stdout, "loss_factor,relaxation,rate_reference,rate_exponent,rate_coefficient", units);
+    putchar('\n');
     for (size_t i = 0; i < list->count; i++) {
         const struct percuss_body *body = &list->bodies[i];
         const char *names[] = {body->id, body->shape, body->material};
@@ -46,6 +61,69 @@ static void print_csv(const struct percuss_body_list *list, bool units)
             printf(",%.17g", p == PERCUSS_PARAMETER_RADIUS ? body->radius : body->parameters[p]);
         putchar(',');
         csv_text(stdout, body->description);
+        printf(",%.17g,", body->loss_factor);
+        print_relaxation(body);
+        printf(",%.17g,%.17g,%.17g\n", body->rate_reference, body->rate_exponent,
+               body->rate_coefficient);
+    }
+}
+
+static void print_pairs_csv(const struct percuss_body_list *list, bool units)
+{
+    csv_head(stdout,
+             "material_a,material_b,friction,friction_deviation,law,kind,stiffness,exponent,"
+             "hysteresis,dissipation,deviation,points,point_count,max_indentation,max_force,"
+             "unloading,residual_indentation",
+             units);
+    putchar('\n');
+    for (size_t i = 0; i < list->pair_count; i++) {
+        const struct percuss_material_pair *pair = &list->pairs[i];
+        const struct percuss_contact_law *law = &pair->law;
+        csv_text(stdout, pair->material_a);
+        putchar(',');
+        csv_text(stdout, pair->material_b);
+        printf(",%.17g,%.17g,", pair->friction, pair->friction_deviation);
+        csv_text(stdout, law->name);
+        printf(",%s,%.17g,%.17g,%.17g,%.17g,%.17g,", law->kind, law->stiffness, law->exponent,
+               law->hysteresis, law->dissipation, law->deviation);
+        csv_text(stdout, law->points);
+        printf(",%u,%.17g,%.17g,", law->point_count, law->max_indentation, law->max_force);
+        csv_text(stdout, law->unloading);
+        printf(",%.17g\n", law->residual_indentation);
+    }
+}
+
+/* A law in words; nothing where there is none. */
+static void print_law(const struct percuss_contact_law *law)
+{
+    if (!law->name[0])
+        return;
+    printf("%s: ", law->name);
+    if (law->points[0])
+        printf("%u points of %s to %g m and %g N", law->point_count, law->points,
+               law->max_indentation, law->max_force);
+    else
+        printf("%g N/m^%g", law->stiffness, law->exponent);
+    if (law->unloading[0])
+        printf(", unloading by %s to %g m", law->unloading, law->residual_indentation);
+    if (law->hysteresis > 0.0)
+        printf(", hysteresis %g", law->hysteresis);
+    if (law->dissipation > 0.0)
+        printf(", dissipation %g s/m", law->dissipation);
+    printf(", deviation %g", law->deviation);
+}
+
+static void print_pairs(const struct percuss_body_list *list)
+{
+    printf("%-20s %-20s %-18s %s\n", "material", "on material", "friction", "law");
+    for (size_t i = 0; i < list->pair_count; i++) {
+        const struct percuss_material_pair *pair = &list->pairs[i];
+        char friction[64] = "";
+        if (!isnan(pair->friction))
+            snprintf(friction, sizeof friction, "%g +- %.3g", pair->friction,
+                     pair->friction_deviation);
+        printf("%-20s %-20s %-18s ", pair->material_a, pair->material_b, friction);
+        print_law(&pair->law);
         putchar('\n');
     }
 }
@@ -59,6 +137,10 @@ static void print_table(const struct percuss_body_list *list)
                body->description);
         for (size_t s = 0; s < body->site_count; s++)
             printf("%-20s %s %s\n", "", s ? "     " : "sites", body->sites[s].name);
+    }
+    if (list->pair_count > 0) {
+        putchar('\n');
+        print_pairs(list);
     }
 }
 
@@ -118,7 +200,7 @@ static int print_check(const struct percuss_body_list *list, bool json)
 
 struct bodies_options {
     struct common *common;
-    bool check, csv;
+    bool check, csv, pairs;
 };
 
 static const struct argp_option options[] = {
@@ -126,7 +208,9 @@ static const struct argp_option options[] = {
      "Say instead what is possible but improbable of them: mostly a number in another unit than "
      "was meant",
      0},
-    {"csv", OPTION_CSV, NULL, 0, "print comma-separated values, a line for each body", 90},
+    {"pairs", OPTION_PAIRS, NULL, 0,
+     "Print only the pairs of materials of which the catalogue states friction or a law", 0},
+    {"csv", OPTION_CSV, NULL, 0, "print comma-separated values, a line for each body or pair", 90},
     {0}};
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -143,7 +227,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case OPTION_CSV:
         chosen->csv = true;
         return 0;
+    case OPTION_PAIRS:
+        chosen->pairs = true;
+        return 0;
     case ARGP_KEY_END:
+        if (chosen->pairs && (chosen->check || chosen->common->json))
+            argp_error(state, "--pairs or %s, not both%s", chosen->check ? "--check" : "--json",
+                       chosen->check ? "" : ": JSON has the pairs, too");
         if (chosen->csv && (chosen->check || chosen->common->json))
             argp_error(state, "--csv or %s, not both", chosen->check ? "--check" : "--json");
         return 0;
@@ -155,7 +245,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp bodies_argp = {.options = options,
                                  .parser = parse,
-                                 .doc = "Lists the bodies that the server knows.",
+                                 .doc = "Lists the bodies that the server knows, and the pairs of "
+                                        "their materials that have friction or a law.",
                                  .children = children};
 
 int command_bodies(int argc, char **argv, struct common *common)
@@ -174,8 +265,12 @@ int command_bodies(int argc, char **argv, struct common *common)
         code = print_check(&list, common->json);
     else if (common->json)
         print_json(&list);
+    else if (chosen.csv && chosen.pairs)
+        print_pairs_csv(&list, common->units);
     else if (chosen.csv)
         print_csv(&list, common->units);
+    else if (chosen.pairs)
+        print_pairs(&list);
     else
         print_table(&list);
     percuss_body_list_free(&list);

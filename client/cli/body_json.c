@@ -5,6 +5,10 @@
 
 #include <percuss/percuss.h>
 
+#include "json_writer.h"
+
+JSON_TABLE(relaxation_term, PERCUSS_RELAXATION_TERM_FIELDS)
+
 /* An object or array under way; NULL as soon as memory has run out. */
 
 static json_t *with(json_t *object, const char *name, json_t *value)
@@ -54,6 +58,14 @@ static json_t *sites(const struct percuss_body *body)
     return array;
 }
 
+static json_t *relaxation(const struct percuss_body *body)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < body->relaxation_count; i++)
+        array = and_then(array, json_object_of(relaxation_term_members(), &body->relaxation[i]));
+    return array;
+}
+
 json_t *body_to_json(const struct percuss_body *body)
 {
     json_t *object = with(json_object(), "id", json_text_or_null(body->id));
@@ -71,5 +83,10 @@ json_t *body_to_json(const struct percuss_body *body)
             object = with(object, percuss_parameter_name(p), json_number(body->parameters[p]));
     object = with(object, "inertia", numbers(body->inertia, 3));
     object = with(object, "products", numbers(body->products, 3));
-    return with(object, "sites", sites(body));
+    object = with(object, "sites", sites(body));
+    object = with(object, "loss_factor", json_number(body->loss_factor));
+    object = with(object, "relaxation", relaxation(body));
+    object = with(object, "rate_reference", json_number(body->rate_reference));
+    object = with(object, "rate_exponent", json_number(body->rate_exponent));
+    return with(object, "rate_coefficient", json_number(body->rate_coefficient));
 }

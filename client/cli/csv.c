@@ -56,6 +56,10 @@ static const struct {
     {"density", "kg/m^3"},
     {"yield", "Pa"},
     {"tangent", "Pa"},
+    {"rate_reference", "1/s"},
+    {"dissipation", "s/m"},
+    {"max_force", "N"},
+    {"residual_indentation", "m"},
 };
 
 /* NULL: it has none. */

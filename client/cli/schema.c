@@ -18,6 +18,9 @@
 JSON_TABLE(task, PERCUSS_TASK_FIELDS)
 JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
 JSON_TABLE(dent, PERCUSS_DENT_FIELDS)
+JSON_TABLE(relaxation_term, PERCUSS_RELAXATION_TERM_FIELDS)
+JSON_TABLE(contact_law, PERCUSS_CONTACT_LAW_FIELDS)
+JSON_TABLE(material_pair, PERCUSS_MATERIAL_PAIR_FIELDS)
 
 /* A member of an object that a command puts together. */
 struct member {
@@ -300,6 +303,16 @@ static json_t *site_schema(void)
     return OBJECT(members);
 }
 
+static json_t *relaxation_schema(void)
+{
+    return json_schema(relaxation_term_members(), false);
+}
+
+static json_t *pair_schema(void)
+{
+    return json_schema(material_pair_members(), false);
+}
+
 static json_t *body_schema(void)
 {
     static const struct member members[] = {
@@ -315,6 +328,11 @@ static json_t *body_schema(void)
         VALUES("inertia", "number", "kg m^2, diagonal about the centre of mass"),
         VALUES("products", "number", "kg m^2, elements yz, zx, xy"),
         LIST("sites", "of a mesh", site_schema),
+        VALUE("loss_factor", "number", "of its material; null: not stated"),
+        LIST("relaxation", "of its material: a Prony series", relaxation_schema),
+        VALUE("rate_reference", "number", "1/s; null: its yield is that of any rate of strain"),
+        VALUE("rate_exponent", "number", "of Cowper and Symonds; null: by the coefficient"),
+        VALUE("rate_coefficient", "number", "of Johnson and Cook; null: by the exponent"),
     };
     json_t *schema = OBJECT(members);
     json_t *properties = json_object_get(schema, "properties");
@@ -329,7 +347,11 @@ static json_t *body_schema(void)
 
 static json_t *bodies_schema(void)
 {
-    static const struct member members[] = {LIST("bodies", "by id", body_schema)};
+    static const struct member members[] = {
+        LIST("bodies", "by id", body_schema),
+        LIST("pairs", "of the bodies' materials, of which the catalogue states friction or a law",
+             pair_schema),
+    };
     return OBJECT(members);
 }
 

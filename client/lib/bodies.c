@@ -1,21 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "announcements.h"
-#include "convert.h"
 #include "error.h"
 #include "library.h"
+#include "lists.h"
 #include "moment.h"
 #include "receive.h"
-
-static int compare_ids(const void *left, const void *right)
-{
-    const struct percuss_body *a = left, *b = right;
-    return strcmp(a->id, b->id);
-}
 
 /* One look at the bodies of a server. PENDING: fewer than `expected`. */
 static enum percuss_result look_at_bodies(struct percuss_client *client, dds_entity_t reader,
@@ -27,23 +20,19 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     if (result != PERCUSS_RESULT_OK)
         return result;
     /* of all announcements those of this server */
-    list->count = 0;
-    list->bodies = calloc((size_t)all.count + 1, sizeof *list->bodies);
-    for (int i = 0; list->bodies && i < all.count; i++) {
+    bool good = lists_begin_bodies(list, (size_t)all.count);
+    for (int i = 0; good && i < all.count; i++) {
         const percuss_v1_Body *wire = all.samples[i];
         if (all.infos[i].valid_data && memcmp(wire->server, server->server, 16) == 0)
-            convert_announced_body(wire, &list->bodies[list->count++]);
+            good = lists_add_body(list, wire);
     }
     announcements_release(&all);
-    if (!list->bodies)
-        return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of bodies");
     /* more are on their way */
-    if (list->count < server->bodies) {
+    if (good && list->count < server->bodies) {
         percuss_body_list_free(list);
         return PERCUSS_RESULT_PENDING;
     }
-    qsort(list->bodies, list->count, sizeof *list->bodies, compare_ids);
-    return PERCUSS_RESULT_OK;
+    return lists_end_bodies(list, good);
 }
 
 enum percuss_result bodies_list(struct percuss_client *client, double timeout,

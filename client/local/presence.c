@@ -14,6 +14,7 @@
 #include "exchange/text.h"
 #include "instance.h"
 #include "library.h"
+#include "lists.h"
 #include "moment.h"
 
 void local_id(const struct percuss_client *client, uint8_t id[16])
@@ -101,12 +102,6 @@ enum percuss_result local_servers(struct percuss_client *client, double timeout,
     return PERCUSS_RESULT_OK;
 }
 
-static int compare_ids(const void *left, const void *right)
-{
-    const struct percuss_body *a = left, *b = right;
-    return strcmp(a->id, b->id);
-}
-
 enum percuss_result local_bodies(struct percuss_client *client, double timeout,
                                  struct percuss_body_list *list)
 {
@@ -116,15 +111,16 @@ enum percuss_result local_bodies(struct percuss_client *client, double timeout,
     enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    list->bodies = calloc(set->count + 1, sizeof *list->bodies);
-    if (!list->bodies)
-        return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of bodies");
-    for (; list->count < set->count; list->count++) {
-        percuss_v1_Body wire;
-        percuss_v1_BodySite sites[BODY_MOST_SITES];
-        describe_body(&set->bodies[list->count], &wire, sites);
-        convert_announced_body(&wire, &list->bodies[list->count]);
+    struct describer describer;
+    bool good = describe_begin(&describer, set);
+    if (good) {
+        good = lists_begin_bodies(list, set->count);
+        for (size_t i = 0; good && i < set->count; i++) {
+            percuss_v1_Body wire;
+            describe_body(&describer, &set->bodies[i], &wire);
+            good = lists_add_body(list, &wire);
+        }
+        describe_end(&describer);
     }
-    qsort(list->bodies, list->count, sizeof *list->bodies, compare_ids);
-    return PERCUSS_RESULT_OK;
+    return lists_end_bodies(list, good);
 }

@@ -36,6 +36,32 @@
     F(VALUE, age, "s; since it was asked for")                                                     \
     F(VALUE, done, "share of it, 0..1; undefined: not known")
 
+#define PERCUSS_RELAXATION_TERM_FIELDS(F, ...)                                                     \
+    F(VALUE, share, "of the instantaneous modulus, that is lost")                                  \
+    F(VALUE, time, "s; in which it falls to 1/e of that")
+
+#define PERCUSS_CONTACT_LAW_FIELDS(F, ...)                                                         \
+    F(TEXT, name, "its own; empty: there is none")                                                 \
+    F(TEXT, kind, "power, hysteresis, hunt-crossley, points")                                      \
+    F(VALUE, stiffness, "N/m^exponent; undefined: of points, as the next three")                   \
+    F(VALUE, exponent, "of the indentation")                                                       \
+    F(VALUE, hysteresis, "share of the work of loading that is lost")                              \
+    F(VALUE, dissipation, "s/m; Hunt and Crossley's")                                              \
+    F(VALUE, deviation, "standard deviation of the force over the force")                          \
+    F(TEXT, points, "file of loading, as the catalogue names it")                                  \
+    F(COUNT, point_count, "points of loading")                                                     \
+    F(VALUE, max_indentation, "m; of the last one")                                                \
+    F(VALUE, max_force, "N; of the last one")                                                      \
+    F(TEXT, unloading, "file of unloading; empty: the way of loading")                             \
+    F(VALUE, residual_indentation, "m; where unloading from the last one ends")
+
+#define PERCUSS_MATERIAL_PAIR_FIELDS(F, L)                                                         \
+    F(TEXT, material_a, "the first by name")                                                       \
+    F(TEXT, material_b, "the other one, or the same")                                              \
+    F(VALUE, friction, "coefficient; undefined: none is stated")                                   \
+    F(VALUE, friction_deviation, "its standard deviation")                                         \
+    L(OPTIONAL, law, contact_law, "the law of their contacts, which contact model auto takes")
+
 #define PERCUSS_DENT_FIELDS(F, ...)                                                                \
     F(VECTOR, point, INFINITY, "m; body frame")                                                    \
     F(VALUE, size, "m; radius of the patch")                                                       \

@@ -547,21 +547,24 @@ static bool write_patiently(dds_entity_t writer, const void *sample)
 bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *set,
                               const struct body_set *before)
 {
-    bool good = true;
-    percuss_v1_Body body;
-    percuss_v1_BodySite sites[BODY_MOST_SITES];
+    percuss_v1_Body body = {0};
+    memcpy(body.server, endpoint->server, sizeof body.server);
     for (size_t i = 0; before && i < before->count; i++) {
         if (body_set_find(set, before->bodies[i].id))
             continue;
-        describe_body(&before->bodies[i], &body, sites);
-        memcpy(body.server, endpoint->server, sizeof body.server);
+        memcpy(body.id, before->bodies[i].id, sizeof body.id);
         dds_dispose(endpoint->body_writer, &body);
     }
+    struct describer describer;
+    if (!describe_begin(&describer, set))
+        return false;
+    bool good = true;
     for (size_t i = 0; i < set->count; i++) {
-        describe_body(&set->bodies[i], &body, sites);
+        describe_body(&describer, &set->bodies[i], &body);
         memcpy(body.server, endpoint->server, sizeof body.server);
         good = write_patiently(endpoint->body_writer, &body) && good;
     }
+    describe_end(&describer);
     return good;
 }
 

@@ -59,6 +59,12 @@ static void take_body(const percuss_v1_Body *wire)
     struct percuss_request request;
     convert_announced_body(wire, &body);
     FUZZ_REQUIRE(body.site_count <= PERCUSS_MAX_SITES, "%zu sites", body.site_count);
+    FUZZ_REQUIRE(body.relaxation_count <= PERCUSS_MAX_RELAXATION, "%zu terms",
+                 body.relaxation_count);
+    for (uint32_t i = 0; i < wire->pairs._length; i++) {
+        struct percuss_material_pair pair;
+        convert_announced_pair(&wire->pairs._buffer[i], &pair);
+    }
     struct percuss_pair pair = percuss_pair_default(&body, &body);
     pair.speed = 1.0;
     percuss_contact_pair(&pair, &request);

@@ -17,6 +17,12 @@ struct percuss_site {
     double normal[3]; /* outward, unit, body frame */
 };
 
+struct percuss_relaxation_term {
+    double share; /* of the instantaneous modulus, that a sudden strain loses */
+    double time;  /* s, in which it falls to 1/e of that */
+};
+enum { PERCUSS_MAX_RELAXATION = 8 };
+
 /* A body of the catalogue. */
 struct percuss_body {
     char id[PERCUSS_ID_SIZE];
@@ -34,11 +40,45 @@ struct percuss_body {
     double products[3]; /* its elements yz, zx, xy; 0: the axes are principal */
     size_t site_count;  /* places with names: mesh */
     struct percuss_site sites[PERCUSS_MAX_SITES];
+    /* What the catalogue states of its material beside the parameters. NAN and no terms: nothing,
+     * or the server's version does not say. */
+    double loss_factor;
+    size_t relaxation_count;
+    struct percuss_relaxation_term relaxation[PERCUSS_MAX_RELAXATION];
+    double rate_reference;   /* 1/s, of the yield stress by the rate of strain */
+    double rate_exponent;    /* of Cowper and Symonds; NAN: by the coefficient */
+    double rate_coefficient; /* of Johnson and Cook; NAN: by the exponent */
+};
+
+/* A force law that the catalogue states for the contacts of two materials. */
+struct percuss_contact_law {
+    char name[PERCUSS_ID_SIZE]; /* empty: none is stated, and the rest is NAN, 0 or empty */
+    char kind[32];              /* power, hysteresis, hunt-crossley, points */
+    double stiffness;           /* N/m^exponent; NAN: of points, as the next three */
+    double exponent, hysteresis;
+    double dissipation;          /* s/m */
+    double deviation;            /* of the force, one standard deviation over it */
+    char points[256];            /* file of loading, as the catalogue names it; empty: none */
+    uint32_t point_count;        /* of loading */
+    double max_indentation;      /* m, of the last point; NAN: of no points, as the next two */
+    double max_force;            /* N */
+    char unloading[256];         /* file; empty: the way of loading */
+    double residual_indentation; /* m, where unloading from the last point ends */
+};
+
+/* What the catalogue states of the contacts of two materials. */
+struct percuss_material_pair {
+    char material_a[PERCUSS_ID_SIZE], material_b[PERCUSS_ID_SIZE]; /* in the order of names */
+    double friction;           /* coefficient; NAN: not stated */
+    double friction_deviation; /* standard deviation of it */
+    struct percuss_contact_law law;
 };
 
 struct percuss_body_list {
     size_t count;
     struct percuss_body *bodies; /* sorted by id */
+    size_t pair_count; /* each once, of materials that bodies have; 0 of an older server, too */
+    struct percuss_material_pair *pairs; /* sorted by both names */
 };
 
 /* A server's id in hexadecimal digits, with the terminating zero. */

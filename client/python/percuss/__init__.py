@@ -50,7 +50,8 @@ from .reply import (
     to_dataframe,
 )
 from .request import BodyMotion, Contact, Options, Request
-from .server import Bodies, Body, Dent, Server, Site, Specimen, Specimens, Task, contact_pair
+from .server import Bodies, Body, ContactLaw, Dent, MaterialPair, RelaxationTerm, Server, Site, Specimen, Specimens, Task
+from .server import contact_pair
 from .sweeps import Curve, Sweep, sweep
 from .traces import ContactTrace, Trace, trace
 from .vocabulary import (
@@ -95,6 +96,7 @@ __all__ = [
     "Client",
     "Compliance",
     "Contact",
+    "ContactLaw",
     "ContactModel",
     "ContactResult",
     "ContactTrace",
@@ -116,6 +118,7 @@ __all__ = [
     "Input",
     "InvalidArgument",
     "Local",
+    "MaterialPair",
     "Method",
     "Model",
     "NoServer",
@@ -124,6 +127,7 @@ __all__ = [
     "PercussError",
     "Progress",
     "Refused",
+    "RelaxationTerm",
     "Reply",
     "Request",
     "Result",

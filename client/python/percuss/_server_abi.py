@@ -6,7 +6,7 @@ import ctypes
 from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_size_t
 from ctypes import c_uint, c_uint8, c_uint32, c_uint64
 
-from .vocabulary import ID_SIZE, MAX_SITES, Parameter
+from .vocabulary import ID_SIZE, MAX_RELAXATION, MAX_SITES, Parameter
 
 _Id = c_char * ID_SIZE
 _Octets = c_uint8 * 16
@@ -15,6 +15,10 @@ _Vector = c_double * 3
 
 class Site(ctypes.Structure):
     _fields_ = [("name", _Id), ("point", _Vector), ("normal", _Vector)]
+
+
+class RelaxationTerm(ctypes.Structure):
+    _fields_ = [("share", c_double), ("time", c_double)]
 
 
 class Body(ctypes.Structure):
@@ -33,11 +37,50 @@ class Body(ctypes.Structure):
         ("products", _Vector),
         ("site_count", c_size_t),
         ("sites", Site * MAX_SITES),
+        ("loss_factor", c_double),
+        ("relaxation_count", c_size_t),
+        ("relaxation", RelaxationTerm * MAX_RELAXATION),
+        ("rate_reference", c_double),
+        ("rate_exponent", c_double),
+        ("rate_coefficient", c_double),
+    ]
+
+
+class ContactLaw(ctypes.Structure):
+    _fields_ = [
+        ("name", _Id),
+        ("kind", c_char * 32),
+        ("stiffness", c_double),
+        ("exponent", c_double),
+        ("hysteresis", c_double),
+        ("dissipation", c_double),
+        ("deviation", c_double),
+        ("points", c_char * 256),
+        ("point_count", c_uint32),
+        ("max_indentation", c_double),
+        ("max_force", c_double),
+        ("unloading", c_char * 256),
+        ("residual_indentation", c_double),
+    ]
+
+
+class MaterialPair(ctypes.Structure):
+    _fields_ = [
+        ("material_a", _Id),
+        ("material_b", _Id),
+        ("friction", c_double),
+        ("friction_deviation", c_double),
+        ("law", ContactLaw),
     ]
 
 
 class BodyList(ctypes.Structure):
-    _fields_ = [("count", c_size_t), ("bodies", POINTER(Body))]
+    _fields_ = [
+        ("count", c_size_t),
+        ("bodies", POINTER(Body)),
+        ("pair_count", c_size_t),
+        ("pairs", POINTER(MaterialPair)),
+    ]
 
 
 class Task(ctypes.Structure):
@@ -124,6 +167,9 @@ class Pair(ctypes.Structure):
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_body": Body,
     "percuss_site": Site,
+    "percuss_relaxation_term": RelaxationTerm,
+    "percuss_contact_law": ContactLaw,
+    "percuss_material_pair": MaterialPair,
     "percuss_body_list": BodyList,
     "percuss_task": Task,
     "percuss_server": Server,

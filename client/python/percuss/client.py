@@ -253,10 +253,11 @@ class Client:
         found = _server_abi.BodyList()
         check(_library.percuss_bodies(self._open, timeout, ctypes.byref(found)))
         try:
-            bodies = [server.read_body(one) for one in found.bodies[: found.count]]
+            bodies = Bodies((one.id, one) for one in map(server.read_body, found.bodies[: found.count]))
+            bodies.pairs = tuple(map(server.read_pair, found.pairs[: found.pair_count]))
         finally:
             _library.percuss_body_list_free(ctypes.byref(found))
-        return Bodies((body.id, body) for body in bodies)
+        return bodies
 
     def specimens(self, timeout: float = 3.0) -> Specimens:
         """The specimens that the connected server keeps, by name, sorted."""

@@ -31,6 +31,61 @@ class Site:
 
 
 @dataclass(frozen=True)
+class RelaxationTerm:
+    """A term of a Prony series."""
+
+    share: float
+    """Of the instantaneous modulus, that a sudden strain loses."""
+    time: float
+    """s, in which it falls to 1/e of that."""
+
+
+@dataclass(frozen=True)
+class ContactLaw:
+    """A force law that the catalogue states for the contacts of two materials."""
+
+    name: str
+    kind: str
+    """power, hysteresis, hunt-crossley, points."""
+    stiffness: float
+    """N/m^exponent; nan: of points, as the next three."""
+    exponent: float
+    hysteresis: float
+    """Share of the work of loading that is lost."""
+    dissipation: float
+    """s/m."""
+    deviation: float
+    """Of the force, one standard deviation over it."""
+    points: str
+    """File of loading, as the catalogue names it; empty: none."""
+    point_count: int
+    """Of loading."""
+    max_indentation: float
+    """m, of the last point; nan: of no points, as the next two."""
+    max_force: float
+    """N."""
+    unloading: str
+    """File; empty: the way of loading."""
+    residual_indentation: float
+    """m, where unloading from the last point ends."""
+
+
+@dataclass(frozen=True)
+class MaterialPair:
+    """What the catalogue states of the contacts of two materials."""
+
+    material_a: str
+    """The first by name."""
+    material_b: str
+    friction: float
+    """Coefficient; nan: not stated."""
+    friction_deviation: float
+    """Standard deviation of it."""
+    law: ContactLaw | None
+    """Which contact model auto takes."""
+
+
+@dataclass(frozen=True)
 class Body:
     """A body of the catalogue."""
 
@@ -58,6 +113,16 @@ class Body:
     """Its elements yz, zx, xy; 0: the axes are principal."""
     sites: tuple[Site, ...]
     """Places with names: mesh."""
+    loss_factor: float = np.nan
+    """Of its material; nan: not stated, or an older server."""
+    relaxation: tuple[RelaxationTerm, ...] = ()
+    """Of its material: a Prony series."""
+    rate_reference: float = np.nan
+    """1/s, of the yield stress by the rate of strain; nan: it is that of any rate."""
+    rate_exponent: float = np.nan
+    """Of Cowper and Symonds; nan: by the coefficient."""
+    rate_coefficient: float = np.nan
+    """Of Johnson and Cook; nan: by the exponent."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +206,14 @@ def read_body(source: Any) -> Body:
     first, second = source.supports
     parameters = {one: source.parameters[one] for one in Parameter if not np.isnan(source.parameters[one])}
     sites = tuple(read(site, Site) for site in source.sites[: source.site_count])
-    return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters, sites=sites)
+    relaxation = tuple(read(term, RelaxationTerm) for term in source.relaxation[: source.relaxation_count])
+    known = {"parameters": parameters, "sites": sites, "relaxation": relaxation}
+    return read(source, Body, supports=(Support(first), Support(second)), **known)
+
+
+def read_pair(source: Any) -> MaterialPair:
+    """Copies a C pair of materials."""
+    return read(source, MaterialPair, law=read(source.law, ContactLaw) if source.law.name else None)
 
 
 def write_body(body: Body) -> _server_abi.Body:
@@ -161,6 +233,12 @@ def write_body(body: Body) -> _server_abi.Body:
         tuple(body.products.tolist()),
         len(body.sites),
         tuple((site.name.encode(), tuple(site.point.tolist()), tuple(site.normal.tolist())) for site in body.sites),
+        body.loss_factor,
+        len(body.relaxation),
+        tuple((term.share, term.time) for term in body.relaxation),
+        body.rate_reference,
+        body.rate_exponent,
+        body.rate_coefficient,
     )
 
 
@@ -180,6 +258,8 @@ class Bodies(_Named[Body]):
     """Of a catalogue, by id, sorted."""
 
     _path, _where = "body", "in the catalogue"
+    pairs: tuple[MaterialPair, ...] = ()
+    """Of their materials, those of which the catalogue states friction or a law, sorted by both names."""
 
 
 class Specimens(_Named[Specimen]):

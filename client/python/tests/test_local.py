@@ -42,6 +42,29 @@ def questions(bodies: dict[str, percuss.Body]) -> list[percuss.Request]:
 
 
 class Local(unittest.TestCase):
+    def test_materials(self) -> None:
+        """What the catalogue states of materials and of their contacts."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "laws.yaml"
+            path.write_text(
+                "materials:\n"
+                "  steel: {young: 210e9, poisson: 0.3, density: 7800, yield: 5e8, rate: {reference: 40, exponent: 5}}\n"
+                "  foam: {young: 1e7, poisson: 0.3, density: 100, relaxation: [{share: 0.2, time: 1 ms}]}\n"
+                "bodies: {ball: {shape: sphere, material: steel, radius: 0.01}, pad: {shape: half-space, material: foam}}\n"
+                "friction: [{between: [steel, steel], coefficient: 0.2, deviation: 0.05}]\n"
+                "laws: {buffer: {between: [steel, foam], stiffness: 2e6, hysteresis: 0.36}}\n"
+            )
+            with percuss.Local(path) as local:
+                bodies = local.bodies()
+        foam, steel = bodies.pairs
+        assert foam.law is not None
+        self.assertEqual((foam.material_a, foam.material_b, foam.law.name, foam.law.kind), ("foam", "steel", "buffer", "hysteresis"))
+        self.assertEqual((foam.law.stiffness, foam.law.exponent, foam.law.hysteresis), (2e6, 1.5, 0.36))
+        self.assertEqual((steel.friction, steel.friction_deviation, steel.law), (0.2, 0.05, None))
+        self.assertEqual(bodies["pad"].relaxation, (percuss.RelaxationTerm(0.2, 1e-3),))
+        self.assertEqual((bodies["ball"].rate_reference, bodies["ball"].rate_exponent), (40.0, 5.0))
+        percuss.contact_pair(bodies["ball"], bodies["pad"], 0.3)
+
     def test_same_answers(self) -> None:
         with percuss.connect(int(os.environ["PERCUSS_DOMAIN"]), timeout=10.0) as client, percuss.Local(
             settings=SETTINGS

@@ -292,6 +292,7 @@ static enum percuss_status read_curve(struct reader *reader, struct entry entry,
     if (!status && !loading && rows.curve.indentation[0] != 0.0)
         status = refuse_row(&rows, 0, "must be at 0 m: the touch");
     *curve = rows.curve;
+    snprintf(curve->file, sizeof curve->file, "%s", (const char *)name->data.scalar.value);
     free(rows.line);
     free(path);
     if (status == PERCUSS_INTERNAL)

@@ -25,6 +25,9 @@ bodies:
   felt:   {shape: sphere, material: felt, radius: 15 mm}
 laws:
   buffer: {between: [steel, felt], points: press.csv, unloading: release.csv}
+  damper: {between: [rubber, nylon], stiffness: 2e6, dissipation: 0.3}
+friction:
+- {between: [steel, felt], coefficient: 0.3, deviation: 0.05}
 YAML
 printf 'm,N\n0,0\n2e-4,1.5\n5e-4,7\n1e-3,20\n2e-3,56\n' >"$work/press.csv"
 printf '2e-3,56\n1.5e-3,20\n1e-3,4\n5e-4,0\n' >"$work/release.csv"
@@ -42,8 +45,27 @@ expect 0 percuss bodies
 grep "^bead .*loss factor 0.06" "$out" >/dev/null || fail "not listed"
 ! grep "^ball .*loss factor" "$out" >/dev/null || fail "steel's is not stated"
 
+say "and the pairs of materials with their laws and friction"
+grep "^felt  *steel  *0.3 +- 0.05  *buffer: 5 points of press.csv to 0.002 m and 56 N, unloading by release.csv to 0.0005 m, deviation 0.05$" \
+    "$out" >/dev/null || fail "felt on steel"
+grep "^nylon  *rubber  *damper: 2e+06 N/m^1.5, dissipation 0.3 s/m, deviation 0.05$" "$out" >/dev/null || fail "nylon on rubber"
+cp "$out" "$work/table"
+expect 0 percuss bodies --pairs
+sed -n '/^material /,$p' "$work/table" | cmp - "$out" || fail "the pairs alone are others"
+expect 0 percuss bodies --pairs --csv
+grep -q '^felt,steel,0.2[0-9]*,0.05[0-9]*,buffer,points,nan,nan,nan,nan,0.05[0-9]*,press.csv,5,0.002[0-9]*,56,release.csv,0.0005[0-9]*$' "$out" ||
+    fail "CSV: $(cat "$out")"
+expect 2 percuss bodies --pairs --json
+expect 0 percuss bodies --csv
+grep -q '^pad,.*,nan,0.1[0-9]* 3.0*[0-9]*e-05; 0.1[0-9]* 0.000[0-9]*,nan,nan,nan$' "$out" || fail "what relaxes: $(grep ^pad "$out")"
+expect 0 percuss bodies --json
+cp "$out" "$work/bodies.json"
+expect 0 "$bin/percuss" bodies --local --catalogue "$work/catalogue.yaml" --json
+cmp "$work/bodies.json" "$out" || fail "in process it is another list"
+[ "$(grep -c '"material_a"' "$out")" -eq 2 ] || fail "pairs in JSON: $(grep -c '"material_a"' "$out")"
+
 say "a material that relaxes loses by its series, and is as stiff as at the impact's frequency"
-grep "^pad .*modulus relaxes to 0.8 of young, by 2 of its times" "$out" >/dev/null || fail "not listed"
+grep "^pad .*modulus relaxes to 0.8 of young, by 2 of its times" "$work/table" >/dev/null || fail "not listed"
 expect 0 percuss query --a ball --b pad --speed 0.3 --json
 [ "$(field contact_model)" = viscoelastic ] || fail "$(field contact_model)"
 awk -v e="$(field restitution)" 'BEGIN { exit !(e > 0.88 && e < 0.96) }' || fail "e = $(field restitution)"

@@ -194,7 +194,7 @@ static void a_body_is_found_or_a_similar_one_named(void **state)
 {
     (void)state;
     struct percuss_body bodies[] = {{.id = "al-beam"}, {.id = "al-rod"}};
-    const struct percuss_body_list list = {2, bodies};
+    const struct percuss_body_list list = {.count = 2, .bodies = bodies};
     assert_ptr_equal(percuss_body_find(&list, "al-rod"), &bodies[1]);
     assert_null(percuss_body_find(&list, "al-rodd"));
     assert_string_equal(percuss_error_text(),

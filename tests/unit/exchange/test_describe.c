@@ -12,8 +12,10 @@ static void described(const struct body *body, const char *shape, const char *de
                       const double half_extents[3])
 {
     percuss_v1_Body wire;
-    percuss_v1_BodySite sites[BODY_MOST_SITES];
-    describe_body(body, &wire, sites);
+    struct describer describer;
+    assert_true(describe_begin(&describer, &(struct body_set){0}));
+    describe_body(&describer, body, &wire);
+    describe_end(&describer);
     assert_string_equal(wire.id, body->id);
     assert_string_equal(wire.shape, shape);
     assert_string_equal(wire.material, "steel");
@@ -75,11 +77,93 @@ static void describes_rods_and_beams(void **state)
               (double[]){2.0, 0.5, 1.0});
 }
 
+static void check_losses(const percuss_v1_Body *body)
+{
+    assert_int_equal(body->losses._length, 1);
+    const percuss_v1_MaterialLosses *losses = body->losses._buffer;
+    assert_true(isnan(losses->loss_factor) && isnan(losses->rate_coefficient));
+    assert_true(losses->rate_reference == 40.0 && losses->rate_exponent == 5.0);
+    assert_int_equal(losses->relaxation._length, 1);
+    assert_true(losses->relaxation._buffer[0].share == 0.2 &&
+                losses->relaxation._buffer[0].time == 1e-3);
+}
+
+static void check_points(const percuss_v1_ContactLaw *law)
+{
+    assert_string_equal(law->name, "press");
+    assert_string_equal(law->kind, "points");
+    assert_string_equal(law->points, "press.csv");
+    assert_string_equal(law->unloading, "release.csv");
+    assert_int_equal(law->point_count, 3);
+    assert_true(law->max_indentation == 2e-3 && law->max_force == 30.0);
+    assert_true(law->residual_indentation == 5e-4 && law->deviation == 0.1);
+    assert_true(isnan(law->stiffness) && isnan(law->exponent));
+}
+
+/* Laws and friction of the pairs that its material is in, one pair a line, and what the material
+ * loses. */
+static void describes_pairs_of_materials(void **state)
+{
+    (void)state;
+    double press[2][3] = {{0.0, 1e-3, 2e-3}, {0.0, 10.0, 30.0}};
+    double release[2][3] = {{5e-4, 1e-3, 2e-3}, {0.0, 4.0, 30.0}};
+    struct friction_pair friction[] = {{{"felt", "steel"}, 0.3, 0.05},
+                                       {{"brass", "brass"}, 0.2, 0.04}};
+    struct own_law laws[] = {
+        {.name = "press",
+         .between = {"felt", "steel"},
+         .exponent = 1.5,
+         .deviation = 0.1,
+         .points = {3, press[0], press[1], "press.csv"},
+         .unloading = {3, release[0], release[1], "release.csv"}},
+        {.name = "stop",
+         .between = {"steel", "wood"},
+         .stiffness = 2e6,
+         .exponent = 2.0,
+         .hysteresis = 0.3,
+         .deviation = 0.05},
+        {.name = "mat",
+         .between = {"brass", "wood"},
+         .stiffness = 1e6,
+         .exponent = 1.0,
+         .dissipation = 0.2},
+    };
+    const struct body_set set = {
+        .friction = friction, .friction_count = 2, .laws = laws, .law_count = 3};
+    const struct body ball = {COMMON,
+                              .kind = &sphere_kind,
+                              .radius = 0.5,
+                              .loss_factor = NAN,
+                              .relaxation = {1, {0.2}, {1e-3}},
+                              .yield_rate = {40.0, 5.0, 0.0}};
+    percuss_v1_Body wire;
+    struct describer describer;
+    assert_true(describe_begin(&describer, &set));
+    describe_body(&describer, &ball, &wire);
+
+    check_losses(&wire);
+    assert_int_equal(wire.pairs._length, 2);
+    const percuss_v1_MaterialPair *felt = &wire.pairs._buffer[0], *wood = &wire.pairs._buffer[1];
+    assert_string_equal(felt->material_a, "felt");
+    assert_string_equal(felt->material_b, "steel");
+    assert_true(felt->friction == 0.3 && felt->friction_deviation == 0.05);
+    assert_int_equal(felt->law._length, 1);
+    check_points(felt->law._buffer);
+    assert_string_equal(wood->material_b, "wood");
+    assert_true(isnan(wood->friction));
+    const percuss_v1_ContactLaw *law = wood->law._buffer;
+    assert_string_equal(law->kind, "hysteresis");
+    assert_true(law->stiffness == 2e6 && law->exponent == 2.0 && law->hysteresis == 0.3);
+    assert_true(law->dissipation == 0.0 && isnan(law->max_force) && law->points[0] == '\0');
+    describe_end(&describer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(describes_every_shape),
         cmocka_unit_test(describes_rods_and_beams),
+        cmocka_unit_test(describes_pairs_of_materials),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

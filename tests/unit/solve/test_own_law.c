@@ -123,7 +123,9 @@ static void by_points(void **state)
     double most = STIFFNESS * last * sqrt(last);
     struct own_law law = {.exponent = 1.5,
                           .deviation = 0.05,
-                          .points = {POINTS + 1, numbers[0], numbers[0] + POINTS + 1}};
+                          .points = {.count = POINTS + 1,
+                                     .indentation = numbers[0],
+                                     .force = numbers[0] + POINTS + 1}};
     for (int i = 0; i <= POINTS; i++) {
         double x = (double)i / POINTS;
         numbers[0][i] = x * last;
@@ -135,7 +137,8 @@ static void by_points(void **state)
         double speed = i % 2 ? 0.3 : 1.2;
         struct own_law own = law;
         if (i >= 2)
-            own.unloading = (struct own_curve){POINTS + 1, numbers[1], numbers[1] + POINTS + 1};
+            own.unloading = (struct own_curve){
+                .count = POINTS + 1, .indentation = numbers[1], .force = numbers[1] + POINTS + 1};
         struct lab *lab = with_law(&own);
         struct solve_request request = balls(speed);
         lab_solve(lab, &request, &result);
@@ -155,7 +158,9 @@ static void beyond_the_points(void **state)
 {
     (void)state;
     double numbers[] = {0.0, 1e-4, 2e-4, 0.0, 1.0, 2.83};
-    struct own_law law = {.exponent = 1.5, .deviation = 0.05, .points = {3, numbers, numbers + 3}};
+    struct own_law law = {.exponent = 1.5,
+                          .deviation = 0.05,
+                          .points = {.count = 3, .indentation = numbers, .force = numbers + 3}};
     struct lab *lab = with_law(&law);
     struct solve_request request = balls(1.0);
     lab_solve(lab, &request, &result);
