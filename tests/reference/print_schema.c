@@ -269,10 +269,33 @@ static json_t *alternatives(const struct key *key)
     return list;
 }
 
+/* Nothing, with a unit or without. */
+static json_t *zero(void)
+{
+    return any_of(json_pack("{si}", "const", 0),
+                  json_pack("{ssss}", "type", "string", "pattern",
+                            "^\\+?0*\\.?0*([eE][-+]?[0-9]+)?( *[^-+.0-9eE].*)? *$"));
+}
+
+/* Adds which keys it must not stand beside, and which one it must. */
+static void add_company(json_t *list, const struct key *key)
+{
+    for (size_t i = 0; i < 2 && key->apart[i]; i++)
+        json_array_append_new(list,
+                              json_pack("{s{s[ss]}}", "not", "required", key->name, key->apart[i]));
+    if (!key->needs)
+        return;
+    json_t *stated = key->type == KEY_NUMBER ? json_pack("{so}", "not", zero()) : json_object();
+    json_array_append_new(list,
+                          json_pack("{s{s[s]s{so}}s{s[s]s{s{s{ss}}}}}", "if", "required", key->name,
+                                    "properties", key->name, stated, "then", "required", key->needs,
+                                    "properties", key->needs, "not", "const", "none"));
+}
+
 /* The keys of a table, and no others. */
 static json_t *mapping(const struct key_table *table)
 {
-    json_t *properties = json_object(), *required = json_array();
+    json_t *properties = json_object(), *required = json_array(), *company = json_array();
     json_t *schema = json_pack("{sssosb}", "type", "object", "properties", properties,
                                "additionalProperties", false);
     const struct key *key;
@@ -284,8 +307,12 @@ static json_t *mapping(const struct key_table *table)
             json_object_set_new(schema, "oneOf", alternatives(key));
         else if (key->required)
             json_array_append_new(required, json_string(key->name));
+        add_company(company, key);
     }
     json_object_set_new(schema, "required", required);
+    if (json_array_size(company) > 0)
+        json_object_set(schema, "allOf", company);
+    json_decref(company);
     return schema;
 }
 

@@ -239,8 +239,6 @@ static enum percuss_status read_relaxation(struct reader *reader, struct entry e
     if (!item.value)
         return PERCUSS_OK;
     size_t mark = reader_enter(reader, "relaxation"), count = reader_count(item.value);
-    if (!isnan(stated->loss_factor))
-        return reader_refuse(reader, item.key, "must be absent beside loss_factor");
     if (count < 1 || count > RELAXATION_TERMS)
         return reader_refuse(reader, item.value, "%zu terms: must be 1 to %d", count,
                              RELAXATION_TERMS);
@@ -266,8 +264,6 @@ static enum percuss_status read_material(struct reader *reader, struct entry ent
     struct fault fault = {0};
     if (material_check(material, &fault))
         return refuse_field(reader, entry, fault.text);
-    if (yield_rate_is_stated(&stated->yield_rate) && isinf(material->yield))
-        return refuse_field(reader, entry, "rate: must be absent without yield");
     reader_leave(reader, mark);
     return PERCUSS_OK;
 }

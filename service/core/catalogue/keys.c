@@ -264,12 +264,44 @@ static enum percuss_status check_instead(struct reader *reader, struct entry ent
                          names[count - 1], table->owner);
 }
 
-/* Whether the mapping has the keys that the table requires. */
+/* Whether a key may stand beside those that are there. */
+static enum percuss_status check_company(struct reader *reader, struct entry entry,
+                                         const struct key *key)
+{
+    const yaml_node_t *value = reader_find(reader, entry.value, key->name).value;
+    if (!value)
+        return PERCUSS_OK;
+    for (size_t i = 0; i < 2 && key->apart[i]; i++) {
+        if (!reader_find(reader, entry.value, key->apart[i]).value)
+            continue;
+        reader_enter(reader, key->name);
+        return reader_refuse(reader, value, "must be absent beside %s", key->apart[i]);
+    }
+    const yaml_node_t *other = NULL;
+    double number = NAN;
+    if (key->needs)
+        other = reader_find(reader, entry.value, key->needs).value;
+    if (!key->needs || (other && !reader_is(other, "none")))
+        return PERCUSS_OK;
+    if (key->type != KEY_NUMBER) {
+        reader_enter(reader, key->name);
+        return reader_refuse(reader, value, "must be absent without %s", key->needs);
+    }
+    if (!reader_quantity(value, key->limit->quantity, &number) || number == 0.0)
+        return PERCUSS_OK;
+    reader_enter(reader, key->name);
+    return reader_refuse(reader, value, "%.9g: must be 0 or absent without %s", number, key->needs);
+}
+
+/* Whether the mapping has the keys that the table requires, and none beside another that is apart.
+ */
 static enum percuss_status check_required(struct reader *reader, struct entry entry,
                                           const struct key_table *table)
 {
     const struct key *key;
     enum percuss_status status = PERCUSS_OK;
+    for (size_t i = 0; !status && (key = key_at(table, i)); i++)
+        status = check_company(reader, entry, key);
     for (size_t i = 0; !status && (key = key_at(table, i)); i++) {
         if (key->instead[0]) {
             status = check_instead(reader, entry, table, key);
@@ -383,11 +415,13 @@ static const struct key law_keys[] = {
               "force at an indentation of 1 m, F = stiffness d^exponent, a plain "
               "number of N/m^exponent")},
     {"exponent", KEY_NUMBER, &limit_law_exponent, false, KEY_OF(own_law, exponent),
-     KEY_SAYS("1.5, Hertz's", "exponent of the indentation in that force")},
+     .apart = {"points"}, KEY_SAYS("1.5, Hertz's", "exponent of the indentation in that force")},
     {"hysteresis", KEY_NUMBER, &limit_hysteresis, false, KEY_OF(own_law, hysteresis),
+     .apart = {"points"},
      KEY_SAYS("0", "share of the work of loading that unloading does not give back, at any speed: "
                    "1 - e^2 of two rigid bodies")},
     {"dissipation", KEY_NUMBER, &limit_dissipation, false, KEY_OF(own_law, dissipation),
+     .apart = {"points", "hysteresis"},
      KEY_SAYS("0", "Hunt and Crossley's: the force is 1 + dissipation times the rate of the "
                    "indentation as large, and never pulls; of single contacts without friction")},
     {"points", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
@@ -396,6 +430,7 @@ static const struct key law_keys[] = {
               "indentation beyond it is answered with a warning. The path is from the "
               "catalogue's own folder")},
     {"unloading", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
+     .apart = {"stiffness"},
      KEY_SAYS("the way of loading",
               "file like that of the way back, from the same largest indentation to force 0; from "
               "other ones it is in proportion")},
@@ -436,8 +471,9 @@ static const struct key material_keys[] = {
          "yield stress in tension, beyond which a contact leaves a dent; none: a material that "
          "is meant to stay elastic")},
     {"tangent", KEY_NUMBER, &limit_tangent, false, KEY_OF(stated_material, material.tangent),
+     .needs = "yield",
      KEY_SAYS("0", "slope of the stress-strain curve beyond yield; 0: ideally plastic")},
-    {"rate", KEY_SECTION, .nested = &keys_rate,
+    {"rate", KEY_SECTION, .nested = &keys_rate, .needs = "yield",
      KEY_SAYS("yield is that of any rate", "how the yield stress grows with the rate of strain")},
     {"loss_factor", KEY_NUMBER, &limit_loss_factor, false, KEY_OF(stated_material, loss_factor),
      KEY_SAYS("not stated",
@@ -445,6 +481,7 @@ static const struct key material_keys[] = {
               "0.1 of hard plastics, 0.05 to 1 of rubber; 0: a soft material that is meant to lose "
               "nothing")},
     {"relaxation", KEY_LIST, .allowed = "a list of 1 to 8 mappings of share, time",
+     .apart = {"loss_factor"},
      KEY_SAYS(
          "none",
          "Prony series of a viscoelastic material, in place of a loss_factor: beside it `young` "

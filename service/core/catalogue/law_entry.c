@@ -303,28 +303,9 @@ static enum percuss_status read_curve(struct reader *reader, struct entry entry,
     return PERCUSS_OK;
 }
 
-/* Refuses a key beside another one. */
-static enum percuss_status refuse_beside(struct reader *reader, struct entry entry, const char *key,
-                                         const char *other)
-{
-    const yaml_node_t *value = reader_find(reader, entry.value, key).value;
-    if (!value || !reader_find(reader, entry.value, other).value)
-        return PERCUSS_OK;
-    reader_enter(reader, key);
-    return reader_refuse(reader, value, "must be absent beside %s", other);
-}
-
 enum percuss_status law_entry_read(struct reader *reader, struct entry entry, struct own_law *law)
 {
-    static const char *const apart[][2] = {
-        {"exponent", "points"},     {"hysteresis", "points"},      {"dissipation", "points"},
-        {"unloading", "stiffness"}, {"dissipation", "hysteresis"},
-    };
-    enum percuss_status status = PERCUSS_OK;
-    for (size_t i = 0; !status && i < sizeof apart / sizeof *apart; i++)
-        status = refuse_beside(reader, entry, apart[i][0], apart[i][1]);
-    if (!status)
-        status = read_curve(reader, entry, "points", NULL, &law->points);
+    enum percuss_status status = read_curve(reader, entry, "points", NULL, &law->points);
     if (!status)
         status = read_curve(reader, entry, "unloading", &law->points, &law->unloading);
     return status;

@@ -1,15 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A law of the catalogue beside the keys that tables read: how they may be combined, and its
- * files. */
+/* The files of a law of the catalogue. */
 #ifndef PERCUSS_CATALOGUE_LAW_ENTRY_H
 #define PERCUSS_CATALOGUE_LAW_ENTRY_H
 
 #include "catalogue/reader.h"
 #include "model/own_law.h"
 
-/* Checks the law that keys_law have filled, and reads its `points` and `unloading`, CSV files whose
+/* Reads `points` and `unloading` of a law that keys_law have filled: CSV files whose
  * faults are told with their own line. Also after a failure the law is for own_law_clear.
  * PERCUSS_OK, PERCUSS_BAD_REQUEST or PERCUSS_INTERNAL. */
 enum percuss_status law_entry_read(struct reader *reader, struct entry entry, struct own_law *law);

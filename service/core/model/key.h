@@ -41,6 +41,8 @@ struct key {
     const struct key_table *nested;
     double absent;          /* KEY_NUMBER, not required: the value where the key is absent */
     const char *instead[2]; /* where the key is absent one of these must be present; NULL: none */
+    const char *apart[2];   /* keys beside which it must be absent; NULL: none */
+    const char *needs;      /* the key, other than `none`, without which it must be absent, or 0 */
     const char *allowed; /* of a value that the caller reads, in words that follow "must be"; NULL:
                             by type */
     const char *otherwise; /* the value where the key is absent; NULL: it is required */

@@ -91,6 +91,17 @@ for kind in catalogue settings; do
     [ "$(cat "$work/valid")" = "$work/$kind/right" ] || fail "valid of the wrong ones and the right one: $(cat "$work/valid")"
 done
 
+say "the same combinations of keys, of laws and of what materials lose, pass the schema and percussd"
+python3 "$source_dir/tests/reference/combinations.py" "$work/combined"
+for file in "$work/combined"/*.yaml; do
+    # words
+    # shellcheck disable=SC2086
+    ! $local "$file" >/dev/null 2>&1 || echo "$file"
+done >"$work/accepted"
+python3 "$source_dir/tests/reference/validate_yaml.py" "$work/catalogue.schema" "$work/combined"/*.yaml >"$work/valid"
+diff "$work/accepted" "$work/valid" || fail "accepted (<) and valid (>) are not the same"
+[ "$(wc -l <"$work/valid")" -gt 20 ] || fail "only $(wc -l <"$work/valid") are valid"
+
 settings "store: dents.db"
 start_daemon
 
