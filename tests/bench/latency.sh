@@ -96,15 +96,6 @@ for run in $(seq "$runs"); do
 done
 for table in trips throughput fixed; do
     "$table" "$work/$table" >"$work/$table.table"
+    sh "$root/tests/bench/tables.sh" "$page" "$work/$table.table" "$table"
 done
-
-# each table between the marks of its name
-awk -v folder="$work" '
-    /^<!-- [a-z]+ end -->$/ { inside = 0 }
-    !inside { print }
-    /^<!-- [a-z]+ begin -->$/ {
-        inside = 1
-        while ((getline line < (folder "/" $2 ".table")) > 0) print line
-    }' "$page" >"$work/page"
-cp "$work/page" "$page"
 cat "$work"/*.table

@@ -40,4 +40,12 @@ for table in trips:5:9 throughput:4:4 fixed:4:6; do
         { for (i = 3; i < NF; i++) if ($i !~ /^ -?[0-9]/ && !($2 == " ping " && $i == " ")) exit 1 }
         END { if (NR != scenes) exit 1 }' || fail "the table $name"
 done
+
+# a page that lost a mark, or a table that was not made, is left as it is
+sed '/<!-- fixed end -->/d' "$page" >"$work/latency.md"
+cp "$work/latency.md" "$work/before"
+! sh "$here/tables.sh" "$work/latency.md" "$work/table" fixed 2>"$work/log" || fail "a page without an end of its tables"
+grep -q "must have one line of each, <!-- fixed begin --> and <!-- fixed end -->" "$work/log" || fail "$(cat "$work/log")"
+! sh "$here/tables.sh" "$work/latency.md" "$work/none" trips 2>"$work/log" || fail "a table that is not there"
+cmp "$work/before" "$work/latency.md" || fail "a page is changed that cannot be"
 echo "latency.sh fills the page's tables"

@@ -271,10 +271,5 @@ tables() {
 }
 
 tables >"$work/tables"
-awk -v tables="$work/tables" '
-    /<!-- tables end -->/ { inside = 0 }
-    !inside { print }
-    /<!-- tables begin -->/ { inside = 1; while ((getline line < tables) > 0) print line }
-' "$docs/lab/performance.md" >"$work/page"
-cp "$work/page" "$docs/lab/performance.md"
+sh "$here/tables.sh" "$docs/lab/performance.md" "$work/tables"
 cat "$work/tables"

@@ -129,10 +129,5 @@ tables() {
 }
 
 tables >"$work/tables"
-awk -v tables="$work/tables" '
-    /<!-- tables end -->/ { inside = 0 }
-    !inside { print }
-    /<!-- tables begin -->/ { inside = 1; while ((getline line < tables) > 0) print line }
-' "$page" >"$work/page"
-cp "$work/page" "$page"
+sh "$root/tests/bench/tables.sh" "$page" "$work/tables"
 cat "$work/tables"

@@ -24,10 +24,5 @@ python3 -m venv "$work/venv"
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 PERCUSS_LIBRARY=$build/client/libpercuss.so PYTHONPATH=$source/client/python \
     "$work/venv/bin/python" "$here/workers.py" "$source" "$build" "$work" >"$work/tables"
-awk -v tables="$work/tables" '
-    /<!-- tables end -->/ { inside = 0 }
-    !inside { print }
-    /<!-- tables begin -->/ { inside = 1; while ((getline line < tables) > 0) print line }
-' "$page" >"$work/page"
-cp "$work/page" "$page"
+sh "$here/tables.sh" "$page" "$work/tables"
 cat "$work/tables"
