@@ -367,16 +367,35 @@ NOT_INLINE static enum contact_step_end solve_together(struct contact_step *step
                : STEP_UNSOLVED;
 }
 
+/* Approaches of a single contact at the nodes and the end under the tangents' forces alone, which
+ * its own forces make d. */
+static void less_tangents(struct contact_step *step, const struct node_problem *problem,
+                          double approach[STEP_POINTS])
+{
+    const struct scene *scene = problem->scene;
+    memcpy(approach, problem->target[0], STEP_POINTS * sizeof *approach);
+    if (!scene->frictions)
+        return;
+    memset(step->force[0], 0, sizeof step->force[0]);
+    coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
+    for (int i = 0; i < STEP_POINTS; i++)
+        approach[i] -= step->taken[0][i];
+    for (size_t row = 1; row < scene->rows; row++)
+        approach[NODES] -= scene->residual[row] * collocation_last(step->force[row]);
+}
+
 /* Those of a single contact whose force depends on its way. */
 NOT_INLINE static enum contact_step_end solve_way(struct contact_step *step,
                                                   const struct node_problem *problem)
 {
+    double approach[STEP_POINTS];
     const struct way_problem way = {
         .level = problem->level,
         .last = step->last_change,
         .coupling = coupling_own(problem->coupling, problem->level, 0)->by,
-        .target = problem->target[0],
+        .target = approach,
     };
+    less_tangents(step, problem, approach);
     if (!way_step_prepare(step->way, problem->level, step->arena))
         return STEP_MEMORY;
     bool solved =

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A single contact without friction whose force depends on its way, on the steps of its contact
+/* A single contact without micro-slip whose force depends on its way, on the steps of its contact
  * phase: one that remembers (impact/memory_step.h), or whose law has the rate of the indentation in
  * it. The force at a point of the step depends on the indentations at all of them.
  *

@@ -150,6 +150,13 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
     return true;
 }
 
+/* Contacts with micro-slip. */
+static size_t slipping(const struct problem *problem)
+{
+    size_t count = problem->friction_count;
+    return count && problem->request->options.friction == PERCUSS_FRICTION_PLAIN ? 0 : count;
+}
+
 /* The catalogue's law of the two materials, for auto and where it is asked for. */
 static enum percuss_status find_own(struct problem *problem, const struct body_set *catalogue,
                                     size_t c, struct fault *fault)
@@ -173,7 +180,7 @@ static enum percuss_status find_own(struct problem *problem, const struct body_s
     if (status)
         return status;
     struct contact_law law = contact_law_own(own, curves);
-    const char *why = contact_law_refuses(&law, problem->contact_count, problem->friction_count);
+    const char *why = contact_law_refuses(&law, problem->contact_count, slipping(problem));
     if (why)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: the law %s, which has a dissipation: %s (another "
@@ -258,10 +265,11 @@ static bool states_loss(const struct problem *problem, size_t c)
 /* Why a contact cannot lose what its materials do; NULL: it can. */
 static const char *why_lossless(const struct problem *problem)
 {
-    if (problem->contact_count == 1 && problem->friction_count == 0 && !states_loss(problem, 0))
+    size_t slips = slipping(problem);
+    if (problem->contact_count == 1 && slips == 0 && !states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
-    return contact_law_refuses(&law, problem->contact_count, problem->friction_count);
+    return contact_law_refuses(&law, problem->contact_count, slips);
 }
 
 /* The law of the only contact, where its bodies state a loss. */

@@ -79,6 +79,17 @@ expect 0 percuss query --a ball --b stop --speed 0.3 --json
 awk -v e="$(field restitution)" 'BEGIN { exit !(e > 0.88 && e < 0.95) }' || fail "e = $(field restitution)"
 awk -v e="$(field restitution_model)" 'BEGIN { exit !(e > 0.02 && e < 0.05) }' || fail "the models' error"
 
+say "plain friction leaves the loss in the number; micro-slip has none, and says so"
+straight=$(field restitution)
+expect 0 percuss query --a ball --b stop --speed 0.3 --spin 200 --friction 0.2 --friction-law plain --json
+[ "$(field contact_model)" = viscoelastic ] || fail "$(field contact_model)"
+! grep -q "of itself" "$out" || fail "told"
+awk -v e="$(field restitution)" -v s="$straight" 'BEGIN { exit !((e - s)^2 < 1e-6) }' || fail "e = $(field restitution), $straight"
+expect 0 percuss query --a ball --b stop --speed 0.3 --spin 200 --friction 0.2
+says "$lost"
+expect 5 percuss query --a ball --b stop --speed 0.3 --friction 0.2 --contact-model viscoelastic
+says "options.contact_model: viscoelastic: it has no micro-slip: options.friction must be plain or none"
+
 say "left out, it is told with its size, and so is one that nobody stated"
 expect 0 percuss query --a ball --b stop --speed 0.3 --contact-model hertz
 says "contacts[0]: what stop loses $lost"

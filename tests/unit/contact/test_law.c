@@ -104,7 +104,7 @@ static void hunt_and_crossleys_fits_together(void **state)
         assert_true(stiffness == 0.0 && viscosity == 0.0);
         assert_true(moving(&law, -d, 1.0, &stiffness, &viscosity) == 0.0);
         assert_true(stiffness == 0.0 && viscosity == 0.0);
-        /* followed alone and without friction */
+        /* followed alone and without micro-slip */
         assert_null(contact_law_refuses(&law, 1, 0));
         assert_string_equal(contact_law_refuses(&law, 2, 0), "contacts: must be one");
         assert_non_null(contact_law_refuses(&law, 1, 1));

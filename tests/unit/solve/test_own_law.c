@@ -98,10 +98,18 @@ static void dissipation(void **state)
                               .deviation = 0.05};
         struct lab *lab = with_law(&law);
         struct solve_request request = balls(speed);
+        if (i >= 2) { /* it slides throughout, which leaves the normal motion as it is */
+            request.contacts[0].friction = 0.2;
+            request.options.friction = PERCUSS_FRICTION_PLAIN;
+            request.bodies[0].velocity[0] = 10.0 * speed;
+        }
         lab_solve(lab, &request, &result);
-        double e = result.contacts[0].restitution;
+        const struct solve_contact_result *contact = &result.contacts[0];
+        double e = contact->restitution;
         near(c * speed * (1.0 + e), log((1.0 + c * speed) / (1.0 - c * speed * e)), 1e-6);
         near(result.energy.closure, 0.0, 1e-7 * result.energy.available);
+        near_relative(1.0 + hypot(contact->impulse_tangential[0], contact->impulse_tangential[1]),
+                      1.0 + (i >= 2 ? 0.2 : 0.0) * contact->impulse, 1e-12);
         lab_free(lab);
     }
 }
@@ -208,7 +216,8 @@ static void asked_for(void **state)
     struct solve_request request = balls(1.0);
     request.contacts[0].friction = 0.2;
     request.bodies[0].velocity[0] = 1.0;
-    refused(lab, &request, "contacts[0]: the law pad, which has a dissipation: it has no friction");
+    refused(lab, &request,
+            "contacts[0]: the law pad, which has a dissipation: it has no micro-slip");
     law.dissipation = 0.0;
     refused(lab, &request, "contacts[0]: the law pad has exponent 1: with friction");
     /* another model takes no law of the catalogue; that law needs one */
