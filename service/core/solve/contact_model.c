@@ -150,11 +150,14 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
     return true;
 }
 
-/* Contacts with micro-slip. */
+/* Contacts with micro-slip. Where nothing slides plain friction, which CVODE has not, is the same.
+ */
 static size_t slipping(const struct problem *problem)
 {
-    size_t count = problem->friction_count;
-    return count && problem->request->options.friction == PERCUSS_FRICTION_PLAIN ? 0 : count;
+    const struct solve_options *options = &problem->request->options;
+    bool slips = options->friction != PERCUSS_FRICTION_PLAIN &&
+                 (options->method == PERCUSS_METHOD_CVODE || problem_slides(problem));
+    return slips ? problem->friction_count : 0;
 }
 
 /* The catalogue's law of the two materials, for auto and where it is asked for. */
@@ -187,10 +190,11 @@ static enum percuss_status find_own(struct problem *problem, const struct body_s
                          "options.contact_model leaves the law out)",
                          c, own->name, why);
     /* friction's cells are the growth of a contact from a point on */
-    if (problem->friction_count > 0 && !curves && own->exponent == 1.0)
+    bool cells = problem->request->options.friction != PERCUSS_FRICTION_PLAIN;
+    if (problem->friction_count > 0 && cells && !curves && own->exponent == 1.0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "contacts[%zu]: the law %s has exponent 1: with friction it must be above "
-                         "1 (options.friction none leaves friction out)",
+                         "contacts[%zu]: the law %s has exponent 1: with micro-slip it must be "
+                         "above 1 (options.friction plain or none)",
                          c, own->name);
     choice->own = own;
     choice->plastic = law;

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "model/rigid.h"
+#include "model/vector.h"
 
 struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
                                struct arena *arena)
@@ -121,4 +122,31 @@ double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
                 sum += rigid_inverse_mass(problem->bodies[of[p].body], of[p].point, of[p].direction,
                                           by[q].point, by[q].direction);
     return sum;
+}
+
+/* No speed moves the surfaces of a contact along each other, and no force of a normal. Of bodies
+ * that vibrate some mode may. */
+static bool is_straight(const struct problem *problem, size_t friction)
+{
+    static const double ROUNDING = 1e-12;
+    size_t c = problem->friction[friction].contact;
+    size_t n = problem->contact_count, rows = problem_rows(problem);
+    if (norm3(problem->sliding[c]) > ROUNDING * fabs(problem->gap_rate[c]))
+        return false;
+    for (int which = 0; which < 2; which++)
+        if (body_is_flexible(problem_body(problem, c, which)))
+            return false;
+    for (size_t row = n + 2 * friction; row < n + 2 * friction + 2; row++)
+        for (size_t r = 0; r < n; r++)
+            if (fabs(problem->row_w[row * rows + r]) > ROUNDING * problem->row_w[r * (rows + 1)])
+                return false;
+    return true;
+}
+
+bool problem_slides(const struct problem *problem)
+{
+    for (size_t i = 0; i < problem->friction_count; i++)
+        if (!is_straight(problem, i))
+            return true;
+    return false;
 }

@@ -178,6 +178,10 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
 /* Velocity along row i due to a unit impulse along row j, 1/kg: the bodies that both share. */
 double problem_inverse_mass(const struct problem *problem, size_t i, size_t j);
 
+/* Whether surfaces with friction may slide along each other: not of rigid bodies that meet without
+ * a slip, where no normal force makes one. */
+bool problem_slides(const struct problem *problem);
+
 /* Where the request's delassus has that of rows i and j. */
 size_t problem_stated_place(const struct problem *problem, size_t i, size_t j);
 

@@ -321,11 +321,18 @@ static void find_turn(const struct problem *problem, const struct impact_outcome
     }
     if (!oblique_of(problem, c) || !(turn > TURN || way > WAY * radius))
         return;
-    warnings_add(
-        warnings, WARNING_TURN,
-        "contacts[%zu]: its bodies turn by up to %.2g rad and slide by up to %.2g m during "
-        "a contact (its radius: %.2g m): the answer holds its place and its tangents still",
-        c, turn, way, radius);
+    struct text text;
+    if (!warnings_begin(warnings, WARNING_TURN, &text))
+        return;
+    text_format(&text, "contacts[%zu]: its bodies ", c);
+    if (turn > 0.0)
+        text_format(&text, "turn by up to %.2g rad%s", turn, way > 0.0 ? " and " : "");
+    if (way > 0.0)
+        text_format(&text, "slide by up to %.2g m", way);
+    text_format(&text,
+                " during a contact (its radius: %.2g m): the answer holds its place and its "
+                "tangents still",
+                radius);
 }
 
 /* A mesh whose flexibility along the surface is taken for that across it (mesh_family_along). */

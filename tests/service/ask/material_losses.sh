@@ -87,8 +87,15 @@ expect 0 percuss query --a ball --b stop --speed 0.3 --spin 200 --friction 0.2 -
 awk -v e="$(field restitution)" -v s="$straight" 'BEGIN { exit !((e - s)^2 < 1e-6) }' || fail "e = $(field restitution), $straight"
 expect 0 percuss query --a ball --b stop --speed 0.3 --spin 200 --friction 0.2
 says "$lost"
-expect 5 percuss query --a ball --b stop --speed 0.3 --friction 0.2 --contact-model viscoelastic
+says "the tolerance is 0.001; options.friction plain or none has it"
+expect 5 percuss query --a ball --b stop --speed 0.3 --spin 200 --friction 0.2 --contact-model viscoelastic
 says "options.contact_model: viscoelastic: it has no micro-slip: options.friction must be plain or none"
+
+say "a straight blow of rigid bodies has it whatever the friction: nothing slides"
+expect 0 percuss query --a ball --b stop --speed 0.3 --friction 0.2 --json
+[ "$(field contact_model)" = viscoelastic ] || fail "$(field contact_model)"
+awk -v e="$(field restitution)" -v s="$straight" 'BEGIN { exit !((e - s)^2 < 1e-8) }' || fail "e = $(field restitution), $straight"
+[ "$(field friction_state)" = stuck ] || fail "$(field friction_state)"
 
 say "left out, it is told with its size, and so is one that nobody stated"
 expect 0 percuss query --a ball --b stop --speed 0.3 --contact-model hertz

@@ -219,7 +219,7 @@ static void asked_for(void **state)
     refused(lab, &request,
             "contacts[0]: the law pad, which has a dissipation: it has no micro-slip");
     law.dissipation = 0.0;
-    refused(lab, &request, "contacts[0]: the law pad has exponent 1: with friction");
+    refused(lab, &request, "contacts[0]: the law pad has exponent 1: with micro-slip");
     /* another model takes no law of the catalogue; that law needs one */
     request = balls(1.0);
     request.options.contact_model = PERCUSS_CONTACT_HERTZ;

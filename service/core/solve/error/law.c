@@ -488,8 +488,11 @@ static void find_stated_loss(const struct problem *problem, size_t contact, doub
             warnings_add(
                 warnings, WARNING_LOSS + which,
                 "contacts[%zu]: what %s loses of itself in the contact (loss_factor %.3g) is not "
-                "in the answer: the restitution is lower by about %.2g; the tolerance is %.2g",
-                contact, body->id, body->loss_factor, whole, problem->tolerance);
+                "in the answer: the restitution is lower by about %.2g; the tolerance is %.2g%s",
+                contact, body->id, body->loss_factor, whole, problem->tolerance,
+                problem->contact_count == 1 && problem->friction_count > 0
+                    ? "; options.friction plain or none has it"
+                    : "");
     }
 }
 
