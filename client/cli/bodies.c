@@ -122,7 +122,8 @@ static void print_pairs(const struct percuss_body_list *list)
         if (!isnan(pair->friction))
             snprintf(friction, sizeof friction, "%g +- %.3g", pair->friction,
                      pair->friction_deviation);
-        printf("%-20s %-20s %-18s ", pair->material_a, pair->material_b, friction);
+        printf("%-20s %-20s ", pair->material_a, pair->material_b);
+        printf(pair->law.name[0] ? "%-18s " : "%s", friction);
         print_law(&pair->law);
         putchar('\n');
     }

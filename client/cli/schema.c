@@ -349,7 +349,8 @@ static json_t *bodies_schema(void)
 {
     static const struct member members[] = {
         LIST("bodies", "by id", body_schema),
-        LIST("pairs", "of the bodies' materials, of which the catalogue states friction or a law",
+        LIST("pairs",
+             "with the material of a body, of which the catalogue states friction or a law",
              pair_schema),
     };
     return OBJECT(members);

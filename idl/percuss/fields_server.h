@@ -60,7 +60,9 @@
     F(TEXT, material_b, "the other one, or the same")                                              \
     F(VALUE, friction, "coefficient; undefined: none is stated")                                   \
     F(VALUE, friction_deviation, "its standard deviation")                                         \
-    L(OPTIONAL, law, contact_law, "the law of their contacts, which contact model auto takes")
+    L(OPTIONAL, law, contact_law,                                                                  \
+      "the law of their contacts, which contact model auto takes; its name is empty: none is "     \
+      "stated")
 
 #define PERCUSS_DENT_FIELDS(F, ...)                                                                \
     F(VECTOR, point, INFINITY, "m; body frame")                                                    \

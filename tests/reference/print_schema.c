@@ -274,7 +274,7 @@ static json_t *zero(void)
 {
     return any_of(json_pack("{si}", "const", 0),
                   json_pack("{ssss}", "type", "string", "pattern",
-                            "^\\+?0*\\.?0*([eE][-+]?[0-9]+)?( *[^-+.0-9eE].*)? *$"));
+                            "^[-+]?(0+\\.?0*|\\.0+)([eE][-+]?[0-9]+)?( *[^-+.0-9eExX].*)? *$"));
 }
 
 /* Adds which keys it must not stand beside, and which one it must. */

@@ -60,7 +60,7 @@ struct percuss_contact_law {
     double deviation;            /* of the force, one standard deviation over it */
     char points[256];            /* file of loading, as the catalogue names it; empty: none */
     uint32_t point_count;        /* of loading */
-    double max_indentation;      /* m, of the last point; NAN: of no points, as the next two */
+    double max_indentation;      /* m, of the last point; NAN: of no points, as the numbers below */
     double max_force;            /* N */
     char unloading[256];         /* file; empty: the way of loading */
     double residual_indentation; /* m, where unloading from the last point ends */
@@ -77,7 +77,7 @@ struct percuss_material_pair {
 struct percuss_body_list {
     size_t count;
     struct percuss_body *bodies; /* sorted by id */
-    size_t pair_count; /* each once, of materials that bodies have; 0 of an older server, too */
+    size_t pair_count;           /* each once, with a body's material; 0 of an older server, too */
     struct percuss_material_pair *pairs; /* sorted by both names */
 };
 

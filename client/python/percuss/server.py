@@ -82,7 +82,7 @@ class MaterialPair:
     friction_deviation: float
     """Standard deviation of it."""
     law: ContactLaw | None
-    """Which contact model auto takes."""
+    """Which contact model auto takes; None: none is stated."""
 
 
 @dataclass(frozen=True)

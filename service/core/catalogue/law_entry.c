@@ -280,9 +280,13 @@ static enum percuss_status read_curve(struct reader *reader, struct entry entry,
     const yaml_node_t *name = reader_find(reader, entry.value, key).value;
     if (!name)
         return PERCUSS_OK;
+    const char *stated = (const char *)name->data.scalar.value;
     size_t mark = reader_enter(reader, key);
     struct fault fault = {0};
-    char *path = shipped_resolve(reader->name, (const char *)name->data.scalar.value);
+    if (strlen(stated) >= sizeof curve->file)
+        return reader_refuse(reader, name, "a path of %zu bytes: at most %zu are allowed",
+                             strlen(stated), sizeof curve->file - 1);
+    char *path = shipped_resolve(reader->name, stated);
     if (!path)
         return fault_set(reader->fault, PERCUSS_INTERNAL, "out of memory");
     struct rows rows = {.path = path, .fault = &fault};
@@ -292,7 +296,7 @@ static enum percuss_status read_curve(struct reader *reader, struct entry entry,
     if (!status && !loading && rows.curve.indentation[0] != 0.0)
         status = refuse_row(&rows, 0, "must be at 0 m: the touch");
     *curve = rows.curve;
-    snprintf(curve->file, sizeof curve->file, "%s", (const char *)name->data.scalar.value);
+    strcpy(curve->file, stated);
     free(rows.line);
     free(path);
     if (status == PERCUSS_INTERNAL)

@@ -531,20 +531,24 @@ static double scatter_of(const struct indices_point *pairs, size_t count)
 }
 
 /* Root mean square difference over sqrt 2 of pairs one to two resolutions apart, the first of them
- * among [first, end). */
+ * among [first, end). Where many have the same x (a list's) each of them has another partner. */
 static double local_deviation(const struct indices_point *sorted, size_t count, size_t first,
                               size_t end, double resolution)
 {
     double sum = 0.0;
-    size_t found = 0, far = first;
+    size_t found = 0, alike = first;  /* the first of the same x */
+    size_t far = first, past = first; /* the first partner, and the end of those of its x */
     for (size_t i = first; i < end; i++) {
+        alike = sorted[i].x > sorted[alike].x ? i : alike;
         while (far < count && sorted[far].x < sorted[i].x + resolution)
             far++;
         if (far == count)
             break;
         if (sorted[far].x > sorted[i].x + 2.0 * resolution)
             continue;
-        double difference = sorted[far].y - sorted[i].y;
+        for (past = past > far ? past : far + 1; past < count && sorted[past].x == sorted[far].x;)
+            past++;
+        double difference = sorted[far + (i - alike) % (past - far)].y - sorted[i].y;
         sum += difference * difference;
         found++;
     }

@@ -67,7 +67,7 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     bool mean_enough = spec->half_width == 0.0 || progress.half_width <= spec->half_width;
     if (quantiles && mean_enough && spec->quantile_half_width > 0.0) {
         bool sorts = summary_sort(values, done, sorted, &sample.kept);
-        progress.quantile_half_width = sorts ? widest_quantile(ensemble, &sample) : INFINITY;
+        progress.quantile_half_width = sorts ? widest_quantile(ensemble, &sample) : NAN;
     }
     progress.enough = mean_enough && (spec->quantile_half_width == 0.0 ||
                                       progress.quantile_half_width <= spec->quantile_half_width);

@@ -21,7 +21,7 @@
 struct own_curve {
     size_t count;                /* 0: there is none */
     double *indentation, *force; /* [count], m and N; one block, which `indentation` owns */
-    char file[256];              /* as the catalogue names it, or the beginning of that */
+    char file[256];              /* as the catalogue names it */
 };
 
 struct own_law {

@@ -111,6 +111,14 @@ static void numbers_are_checked(void **state)
     refused("exponent: 2, points: points.csv", "laws.pad.exponent: must be absent beside points");
 }
 
+static void paths_that_are_too_long_are_refused(void **state)
+{
+    (void)state;
+    char text[300];
+    snprintf(text, sizeof text, "points: %0256d", 0);
+    refused(text, "laws.pad.points: a path of 256 bytes: at most 255 are allowed");
+}
+
 /* Files are found beside the catalogue, in either order of unloading. */
 static void points(void **state)
 {
@@ -198,6 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(powers),
         cmocka_unit_test(numbers_are_checked),
+        cmocka_unit_test(paths_that_are_too_long_are_refused),
         cmocka_unit_test(points),
         cmocka_unit_test(lines_of_files),
     };

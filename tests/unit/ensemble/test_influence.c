@@ -76,8 +76,8 @@ static double list_value(uint64_t i)
 }
 
 /* Neighbours in a list of values are a resolution and a half apart: white noise has its deviation
- * between them, as y does not decide which sample of a value comes first. The first one is compared
- * with all samples of the value before: the mean of 59 such squares, each 1/12 +- 0.075/2. */
+ * between them in every part, as y does not decide which samples are compared. Of some N/10 pairs
+ * in a part, each with a square of 1/6 +- 0.2, four deviations. */
 static void equal_values_are_in_an_order_by_chance(void **state)
 {
     (void)state;
@@ -91,10 +91,8 @@ static void equal_values_are_in_an_order_by_chance(void **state)
     }
     assert_true(indices_sort(x, y, N, points, &kept));
     influence_parts(points, N, 0.01, parts, 10);
-    double square = 0.0;
     for (int k = 0; k < 10; k++)
-        square += parts[k].local * parts[k].local / 10.0;
-    near(square, 1.0 / 12.0, 4.0 * 0.075 / 2.0 / sqrt(59.0));
+        near(parts[k].local * parts[k].local, 1.0 / 12.0, 4.0 * 0.1 / sqrt(N / 10.0));
     free(x);
     free(y);
     free(points);
