@@ -367,8 +367,8 @@ NOT_INLINE static enum contact_step_end solve_together(struct contact_step *step
                : STEP_UNSOLVED;
 }
 
-/* Approaches of a single contact at the nodes and the end under the tangents' forces alone, which
- * its own forces make d. */
+/* Approaches of a single contact at the nodes and the end under the tangents' forces alone; the
+ * contact's own forces then reduce them to d. */
 static void less_tangents(struct contact_step *step, const struct node_problem *problem,
                           double approach[STEP_POINTS])
 {

@@ -231,10 +231,7 @@ static bool fill_friction(struct assembly *assembly, const struct problem *probl
                                               .ratio = {of->ratio[0], of->ratio[1], of->ratio[2]}};
     }
     scene_set_frictions(&assembly->scene, n);
-    /* a law with a loss has no micro-slip (contact_law_refuses) */
-    assembly->scene.plain =
-        problem->request->options.friction == PERCUSS_FRICTION_PLAIN ||
-        (problem->friction_count > 0 && problem->contact_model.laws[0].operations->lossy);
+    assembly->scene.plain = problem_is_plain(problem);
     assembly->scene.friction = friction;
     return true;
 }

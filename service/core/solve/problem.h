@@ -182,6 +182,10 @@ double problem_inverse_mass(const struct problem *problem, size_t i, size_t j);
  * a slip, where no normal force makes one. */
 bool problem_slides(const struct problem *problem);
 
+/* Whether friction is plain: asked for, or the law of the only contact has a loss, beside which
+ * there is no micro-slip (contact_law_refuses); until the laws are chosen: asked for. */
+bool problem_is_plain(const struct problem *problem);
+
 /* Where the request's delassus has that of rows i and j. */
 size_t problem_stated_place(const struct problem *problem, size_t i, size_t j);
 

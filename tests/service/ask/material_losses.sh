@@ -23,6 +23,7 @@ bodies:
   pad:    {shape: half-space, material: pom}
   bell:   {shape: rod, material: nylon, radius: 10 mm, length: 1, damping: 0}
   felt:   {shape: sphere, material: felt, radius: 15 mm}
+  post:   {shape: block, material: nylon, size: [200 mm, 40 mm, 60 mm], ends: cantilever}
 laws:
   buffer: {between: [steel, felt], points: press.csv, unloading: release.csv}
   damper: {between: [rubber, nylon], stiffness: 2e6, dissipation: 0.3}
@@ -96,6 +97,11 @@ expect 0 percuss query --a ball --b stop --speed 0.3 --friction 0.2 --json
 [ "$(field contact_model)" = viscoelastic ] || fail "$(field contact_model)"
 awk -v e="$(field restitution)" -v s="$straight" 'BEGIN { exit !((e - s)^2 < 1e-8) }' || fail "e = $(field restitution), $straight"
 [ "$(field friction_state)" = stuck ] || fail "$(field friction_state)"
+say "but not of one that the blow bends to the side"
+expect 0 percuss query --a ball --b post --speed 0.5 --friction 0.3 --json
+[ "$(field contact_model)" = hertz ] || fail "$(field contact_model)"
+grep -q "of itself" "$out" || fail "not told"
+[ "$(field friction_state)" != stuck ] || fail "$(field friction_state)"
 
 say "left out, it is told with its size, and so is one that nobody stated"
 expect 0 percuss query --a ball --b stop --speed 0.3 --contact-model hertz

@@ -156,6 +156,37 @@ static void a_sample_has_its_own_modulus(void **state)
     lab_free(lab);
 }
 
+/* A sample that slides has no loss, a straight one after it has. */
+static void straight_samples_after_sliding_ones(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    for (int which = 0; which < 2; which++) {
+        struct body ball = make_sphere(ACRYLIC, RADIUS);
+        ball.loss_factor = 0.06;
+        lab_add(lab, which ? "b" : "a", ball);
+    }
+    struct repeat *alone = repeat_create(), *busy = repeat_create();
+    struct solution_model model;
+    struct repeat_outcome first, other, again;
+    struct fault fault;
+    struct solve_request straight = strike(sphere_spot("a", RADIUS), sphere_spot("b", RADIUS), 0.3);
+    straight.contacts[0].friction = 0.3;
+    struct solve_request askew = straight;
+    askew.bodies[0].velocity[0] = 0.3;
+    assert_int_equal(repeat_search(busy, &lab->means, &askew, 0, &model, &other, &fault),
+                     PERCUSS_OK);
+    repeat_solve(busy, &lab->means, &askew, 0, &model, false, &other, &fault);
+    repeat_solve(busy, &lab->means, &straight, 0, &model, true, &again, &fault);
+    repeat_solve(alone, &lab->means, &straight, 0, &model, false, &first, &fault);
+    assert_int_equal(again.status, PERCUSS_OK);
+    assert_true(other.restitution > 0.99 && first.restitution < 0.95);
+    assert_true(again.restitution == first.restitution);
+    repeat_free(alone);
+    repeat_free(busy);
+    lab_free(lab);
+}
+
 /* Spheres that creep faster than they touch are viscous ones, F = k (d^1.5 + 1.5 A d^0.5 d'), whose
  * restitution is published: 1 - 1.15344 z + 0.79826 z^2 with z = 1.5 A (k/m)^(2/5) v^(1/5)
  * (R. Ramirez, T. Poeschel, N. V. Brilliantov, T. Schwager, Phys. Rev. E 60 (1999) 4465). Here it
@@ -279,6 +310,7 @@ int main(void)
         cmocka_unit_test(a_sample_has_its_own_modulus),
         cmocka_unit_test(as_published_of_viscous_spheres),
         cmocka_unit_test(with_friction),
+        cmocka_unit_test(straight_samples_after_sliding_ones),
         cmocka_unit_test(in_groups_too),
         cmocka_unit_test(too_soft_is_refused),
     };
