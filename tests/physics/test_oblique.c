@@ -90,6 +90,82 @@ static void alumina_on_glass(void **state)
     lab_free(lab);
 }
 
+/* Their measured ball, from 2 to 60 degrees, read off the printed figures by the authors of MFiX
+ * (DEM05): the centre's speed along the surface after, over that before, itself and as their spins
+ * (of a sphere 5/2 (1 - it) v sin(angle)/R) and angles after the rebound (0.98
+ * tan(after)/tan(angle)) say it. Angles below 1 degree say nothing in hundredths of a degree. */
+enum reading { SPEED, SPIN, ANGLE };
+static const struct {
+    double angle, value;
+    enum reading what;
+} MEASURED[] = {
+    {2.0275, 0.7938, SPEED},   {3.9282, 0.7450, SPEED},   {9.6304, 0.6728, SPEED},
+    {20.0845, 0.5964, SPEED},  {30.2218, 0.6883, SPEED},  {39.3031, 0.7719, SPEED},
+    {49.5459, 0.8469, SPEED},  {59.8416, 0.9019, SPEED},  {6.0025, 135.5703, SPIN},
+    {10.9840, 264.5493, SPIN}, {21.1931, 577.0096, SPIN}, {31.0947, 612.6481, SPIN},
+    {39.0283, 595.4843, SPIN}, {50.2214, 452.9444, SPIN}, {60.2460, 381.3185, SPIN},
+    {2.2945, 1.7630, ANGLE},   {4.2922, 2.9577, ANGLE},   {9.9429, 6.6917, ANGLE},
+    {20.5594, 12.3645, ANGLE}, {30.3767, 21.7809, ANGLE}, {39.6233, 32.5455, ANGLE},
+    {49.7831, 45.1051, ANGLE}, {60.0571, 57.3652, ANGLE},
+};
+enum { SPEEDS = 8 };
+
+static double measured_speed(size_t i)
+{
+    double angle = MEASURED[i].angle * M_PI / 180.0, value = MEASURED[i].value;
+    if (MEASURED[i].what == SPIN)
+        return 1.0 - 0.4 * 0.0025 * value / (3.85 * sin(angle));
+    return MEASURED[i].what == ANGLE ? 0.98 * tan(value * M_PI / 180.0) / tan(angle) : value;
+}
+
+/* Root of the mean square by which spins and angles contradict the line through the measured
+ * speeds, within its ends. */
+static double contradiction(void)
+{
+    double sum = 0.0;
+    size_t count = 0;
+    for (size_t i = SPEEDS; i < COUNT(MEASURED); i++)
+        for (size_t k = 1; k < SPEEDS; k++) {
+            double from = MEASURED[k - 1].angle, to = MEASURED[k].angle;
+            if (MEASURED[i].angle < from || MEASURED[i].angle > to)
+                continue;
+            double along = (MEASURED[i].angle - from) / (to - from);
+            double line = MEASURED[k - 1].value;
+            line += along * (MEASURED[k].value - line);
+            sum += pow(measured_speed(i) - line, 2.0);
+            count++;
+        }
+    return sqrt(sum / count);
+}
+
+/* Their glass, into which waves leave. Straight on the ball keeps 0.98 by their measurement: two
+ * digits, and what the materials lose of themselves is not in the answer. Along the surface the
+ * answer is as near to the measured values as these are to each other; a right one would be at 0.7
+ * of that, and sticking without micro-slip, 5/7, at twice. */
+static void alumina_as_measured(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const struct material alumina = {"alumina", 380e9, 0.23, 4000.0, INFINITY, 0.0};
+    static const struct material glass = {"glass", 70e9, 0.25, 2500.0, INFINITY, 0.0};
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(alumina, 0.0025));
+    lab_add(lab, "wall", make_body(&half_space_kind, glass));
+    double sum = 0.0;
+    for (size_t i = 0; i < COUNT(MEASURED); i++) {
+        double angle = MEASURED[i].angle * M_PI / 180.0, along = 3.85 * sin(angle);
+        struct solve_request request = thrown("ball", 0.0025, 3.85 * cos(angle), 0.0, 0.092);
+        request.bodies[0].velocity[0] = along;
+        lab_solve(lab, &request, &result);
+        if (MEASURED[i].angle < 30.0)
+            near(result.contacts[0].restitution, 0.98, 0.01);
+        double off = result.bodies[0].velocity[0] / along - measured_speed(i);
+        sum += off * off;
+    }
+    lab_free(lab);
+    measured("root of the mean square", sqrt(sum / COUNT(MEASURED)), 0.0, contradiction());
+}
+
 /* ---- Bars dropped askew ---- */
 
 /* A bar with round ends in the model of the other program: the forces on a cap act on the end of a
@@ -697,6 +773,7 @@ int main(void)
         cmocka_unit_test(models_of_sequences), cmocka_unit_test(slender_solids),
         cmocka_unit_test(large_solids),        cmocka_unit_test(plain_solids),
         cmocka_unit_test(turned_solids),       cmocka_unit_test(other_coefficients),
+        cmocka_unit_test(alumina_as_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
