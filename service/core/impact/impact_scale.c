@@ -34,10 +34,12 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
     return sum;
 }
 
-/* Energy stored by a law; where it yields, that of a force like d^(3/2) instead of the integral. */
+/* Energy stored by a law; where it yields, that of a force like d^(3/2) instead of the integral;
+ * where it remembers, as suddenly. */
 static double stored_about(const struct contact_law *law, double d, double force)
 {
-    return law->operations->curve ? HERTZ_WORK * force * d : law->operations->stored(law, d);
+    return law->operations->curve || law->operations->remembers ? HERTZ_WORK * force * d
+                                                                : law->operations->stored(law, d);
 }
 
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
