@@ -473,7 +473,7 @@ static struct friction_way way_of(const struct contact_step *step, const struct 
 {
     size_t row = scene_tangent(scene, i);
     size_t rows[3] = {scene->friction[i].contact, row, row + 1};
-    struct friction_way way;
+    struct friction_way way = {.time = step_length(step->level)};
     for (int r = 0; r < 3; r++) {
         way.start[r] = start[rows[r]].indentation;
         way.nodes[r] = step->indentation[rows[r]];

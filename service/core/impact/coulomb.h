@@ -22,17 +22,7 @@
 
 #include "base/arena.h"
 #include "impact/coupling.h"
-
-/* The local d of a contact's rows n, t1, t2 (scene.h) at the start, the nodes and the end of a
- * step, m. */
-struct friction_way {
-    double start[3];
-    const double *nodes[3]; /* [NODES] */
-    double end[3];
-};
-
-/* The start, the nodes and the end. */
-enum { WAY_POINTS = NODES + 2 };
+#include "impact/slip_way.h"
 
 /* Values and derivatives by the step's own time, of Lagrange's polynomials. */
 struct coulomb_points {

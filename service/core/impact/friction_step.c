@@ -19,6 +19,24 @@ static size_t cells_for(double accuracy)
     return cells < FEWEST_CELLS ? FEWEST_CELLS : cells < MOST_CELLS ? (size_t)cells : MOST_CELLS;
 }
 
+static bool scene_loses(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->frictions; i++)
+        if (scene->laws[scene->friction[i].contact].operations->lossy)
+            return true;
+    return false;
+}
+
+static bool create_circles(struct friction_step *step, const struct scene *scene, size_t parts,
+                           struct arena *arena)
+{
+    step->circles = arena_take(arena, step->count, sizeof *step->circles);
+    for (size_t i = 0; step->circles && i < step->count; i++)
+        if (!circle_step_create(&step->circles[i], scene, i, parts, step->points, arena))
+            return false;
+    return step->circles != NULL;
+}
+
 bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
                           struct arena *arena)
 {
@@ -40,6 +58,9 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     step->across = step->stuck + n;
     step->along = step->now + n;
     step->after = step->along + n;
+    slip_points_make(step->points);
+    if (scene_loses(scene))
+        return create_circles(step, scene, cells, arena);
     for (size_t i = 0; i < n; i++) {
         const struct scene_friction *of = &scene->friction[i];
         if (!friction_create(&step->now[i], of->coefficient, of->ratio, cells, arena) ||
@@ -47,7 +68,6 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
             !friction_second(&step->after[i], &step->now[i], arena))
             return false;
     }
-    slip_points_make(step->points);
     return true;
 }
 
@@ -69,8 +89,8 @@ static void begin_taken(const struct scene_friction *friction, const double rate
     }
 }
 
-void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
-                         const double *rate, const double *depth)
+void friction_step_begin(struct friction_step *step, const struct scene *scene, double time,
+                         const double *d, const double *rate, const double *depth)
 {
     if (step->plain) {
         coulomb_begin(&step->coulomb);
@@ -81,8 +101,12 @@ void friction_step_begin(struct friction_step *step, const struct scene *scene, 
         size_t contact = scene->friction[i].contact, row = scene_tangent(scene, i);
         const double rates[3] = {rate[contact], rate[row], rate[row + 1]};
         double none[2];
-        friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
-        friction_walk(&step->now[i], fmin(d[contact], 0.0), d + row, none);
+        if (step->circles) {
+            circle_step_begin(&step->circles[i], depth[contact], time, d + row);
+        } else {
+            friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
+            friction_walk(&step->now[i], fmin(d[contact], 0.0), d + row, none);
+        }
         begin_taken(&scene->friction[i], rates, step->taken + 3 * i);
     }
 }
@@ -150,7 +174,7 @@ static bool walk_nodes(struct friction_step *step, size_t i, const struct fricti
 
 bool friction_step_slid(const struct friction_step *step, size_t i)
 {
-    return step->now[i].stuck == 0.0;
+    return (step->circles ? step->circles[i].now.stuck : step->now[i].stuck) == 0.0;
 }
 
 /* The tangent of the angle by which the slip turns between a step's start and its last node, up to
@@ -172,6 +196,11 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
                          const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES])
 {
+    if (step->circles) {
+        const struct circle_forces forces = {force, stiffness, step->across[i], step->stuck[i]};
+        circle_step_nodes(&step->circles[i], way, normal, &forces);
+        return;
+    }
     bool slides = friction_step_slid(step, i) && turns_little(step, way) &&
                   walk_nodes(step, i, way, false, normal, force, stiffness);
     if (!slides)
@@ -181,6 +210,10 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
 void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
                        double normal, double force[2], double stiffness[2])
 {
+    if (step->circles) {
+        circle_step_end(&step->circles[i], way, normal, force, stiffness);
+        return;
+    }
     struct friction *after = &step->after[i];
     struct slip_place now = slip_place_at(way, &step->points->last);
     friction_copy(after, &step->along[i]);
@@ -195,14 +228,15 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
 bool friction_step_slides(const struct friction_step *step, size_t i)
 {
     const double *stuck = step->stuck[i];
-    return stuck[0] + stuck[1] + stuck[2] + stuck[3] + step->after[i].stuck == 0.0;
+    double after = step->circles ? step->circles[i].after.stuck : step->after[i].stuck;
+    return stuck[0] + stuck[1] + stuck[2] + stuck[3] + after == 0.0;
 }
 
 void friction_step_deepen(struct friction_step *step, const struct scene *scene, size_t contact,
                           double deeper)
 {
     size_t friction = scene_friction_of(scene, contact);
-    if (friction < step->count && !step->plain)
+    if (friction < step->count && !step->plain && !step->circles)
         friction_deepen(&step->now[friction], deeper);
 }
 
@@ -213,7 +247,9 @@ void friction_step_take(struct friction_step *step, const struct scene *scene, i
         coulomb_take(&step->coulomb);
         return;
     }
-    for (size_t i = 0; i < step->count; i++) {
+    for (size_t i = 0; step->circles && i < step->count; i++)
+        circle_step_take(&step->circles[i], level, force + scene_tangent(scene, i));
+    for (size_t i = 0; !step->circles && i < step->count; i++) {
         struct friction taken = step->after[i];
         step->after[i] = step->now[i];
         step->now[i] = taken;
@@ -236,11 +272,15 @@ double friction_step_rounding(const struct friction_step *step, size_t i)
 
 double friction_step_lost(const struct friction_step *step, size_t i)
 {
+    if (step->circles)
+        return circle_step_lost(&step->circles[i]);
     return step->plain ? step->coulomb.lost[i] : step->now[i].lost;
 }
 
 double friction_step_stored(const struct friction_step *step, size_t i)
 {
+    if (step->circles)
+        return step->circles[i].now.stored;
     return step->plain ? 0.0 : friction_stored(&step->now[i]);
 }
 
@@ -248,6 +288,8 @@ void friction_step_force(const struct friction_step *step, size_t i, double forc
 {
     if (step->plain)
         memcpy(force, step->coulomb.force[i], sizeof step->coulomb.force[i]);
+    else if (step->circles)
+        memcpy(force, step->circles[i].now.force, sizeof step->circles[i].now.force);
     else
         friction_force(&step->now[i], force);
 }

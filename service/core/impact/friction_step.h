@@ -10,6 +10,7 @@
 #define PERCUSS_IMPACT_FRICTION_STEP_H
 
 #include "contact/friction.h"
+#include "impact/circle_step.h"
 #include "impact/collocation.h"
 #include "impact/coulomb.h"
 #include "impact/scene.h"
@@ -30,7 +31,9 @@ struct friction_step {
     double (*taken)[NODES];
     int level;
     struct slip_points *points;
-    struct coulomb coulomb; /* plain friction: instead of all but `count` and `stuck` */
+    struct circle_step *circles; /* [count]: where a law has a loss: instead of the cells; else
+                                    NULL */
+    struct coulomb coulomb;      /* plain friction: instead of all but `count` and `stuck` */
 };
 
 /* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out
@@ -38,10 +41,10 @@ struct friction_step {
 bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
                           struct arena *arena);
 
-/* A contact phase begins, at the rows' local d and their rates: the cells of all contacts, open, by
- * their laws and the largest indentations that are expected, [contact]. */
-void friction_step_begin(struct friction_step *step, const struct scene *scene, const double *d,
-                         const double *rate, const double *depth);
+/* A contact phase begins at a time (s), at the rows' local d and their rates: the cells of all
+ * contacts, open, by their laws and the largest indentations that are expected, [contact]. */
+void friction_step_begin(struct friction_step *step, const struct scene *scene, double time,
+                         const double *d, const double *rate, const double *depth);
 
 /* Predicts force[row] of the tangents at the nodes of a step of that level: those of the normals
  * there times the ratio of both as it went on the step before, within the coefficient. */

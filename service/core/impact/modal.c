@@ -770,7 +770,7 @@ NOT_INLINE static void begin_friction(struct modal_run *run)
     }
     for (size_t c = 0; c < scene->contacts; c++)
         run->depth[c] = larger(impact_scale_of(scene, c, fastest).indentation, pressed(scene, c));
-    friction_step_begin(run->step.friction, scene, at, rates, run->depth);
+    friction_step_begin(run->step.friction, scene, motion->time, at, rates, run->depth);
 }
 
 /* The touch that ended the flight, and starting values of the contacts that are still open. */

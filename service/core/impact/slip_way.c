@@ -8,15 +8,21 @@
 #include "impact/simd.h"
 #include "numeric/lagrange.h"
 
-/* The start, the nodes and the end. */
-enum { INNER = NODES + 1, ALL = NODES + 2 };
+/* The start and the nodes; and the end. */
+enum { INNER = NODES + 1, ALL = WAY_POINTS };
+
+static void find_places(double place[ALL])
+{
+    place[0] = 0.0;
+    for (int i = 0; i < NODES; i++)
+        place[i + 1] = collocation.node[i];
+    place[ALL - 1] = 1.0;
+}
 
 static void set_point(struct slip_point *point, size_t count, double at)
 {
-    double place[ALL] = {0.0};
-    for (int i = 0; i < NODES; i++)
-        place[i + 1] = collocation.node[i];
-    place[NODES + 1] = 1.0;
+    double place[ALL];
+    find_places(place);
     *point = (struct slip_point){.at = at, .count = count};
     lagrange_values(place, count, at, point->value);
     lagrange_slopes(place, count, at, point->slope);
@@ -32,6 +38,23 @@ void slip_points_make(struct slip_points *points)
         set_point(&points->middle[i], INNER, 0.5 * (node[i] + node[i + 1]));
     set_point(&points->last, ALL, node[NODES - 1]);
     set_point(&points->end, ALL, 1.0);
+    double place[ALL];
+    find_places(place);
+    for (int i = 0; i < NODES; i++)
+        lagrange_slopes(place, ALL, collocation.node[i], points->node_rate[i]);
+}
+
+double slip_work(const struct slip_points *points, const double displacement[WAY_POINTS],
+                 const double force[NODES])
+{
+    double sum = 0.0;
+    for (int i = 0; i < NODES; i++) {
+        double rate = 0.0;
+        for (int j = 0; j < WAY_POINTS; j++)
+            rate += points->node_rate[i][j] * displacement[j];
+        sum += collocation.weight[i] * force[i] * rate;
+    }
+    return sum;
 }
 
 struct slip_place slip_place_at(const struct friction_way *way, const struct slip_point *point)

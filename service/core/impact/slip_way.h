@@ -9,14 +9,25 @@
 
 #include "contact/friction.h"
 #include "impact/collocation.h"
-#include "impact/coulomb.h"
+
+/* The local d of a contact's rows n, t1, t2 (scene.h) at the start, the nodes and the end of a
+ * step, m. */
+struct friction_way {
+    double start[3];
+    const double *nodes[3]; /* [NODES] */
+    double end[3];
+    double time; /* of the step, s */
+};
+
+/* The start, the nodes and the end. */
+enum { WAY_POINTS = NODES + 2 };
 
 /* Lagrange's polynomials and their slopes at an instant of the step's own time, of the first
  * `count` places: the start, the nodes and the end. */
 struct slip_point {
     double at;
     size_t count;
-    double value[NODES + 2], slope[NODES + 2];
+    double value[WAY_POINTS], slope[WAY_POINTS];
 };
 
 /* The start, the nodes and the middles between two of them; the last node and the end by the
@@ -24,6 +35,7 @@ struct slip_point {
  * the end are shorter than the halves between two. */
 struct slip_points {
     struct slip_point start, node[NODES], middle[NODES - 1], last, end;
+    double node_rate[NODES][WAY_POINTS]; /* by those through all places */
 };
 
 void slip_points_make(struct slip_points *points);
@@ -35,6 +47,11 @@ struct slip_place {
 };
 
 struct slip_place slip_place_at(const struct friction_way *way, const struct slip_point *point);
+
+/* Work of a force, a cubic through its values at the nodes, on displacements along one tangent at
+ * all places. */
+double slip_work(const struct slip_points *points, const double displacement[WAY_POINTS],
+                 const double force[NODES]);
 
 /* Walks on from one place of the way to a point, which becomes the place; through the instant
  * between them at which a contact that slides begins to stick. force[j] becomes the tangential

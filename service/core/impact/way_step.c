@@ -19,7 +19,7 @@ bool way_step_create(struct way_step **step, const struct scene *scene, struct a
     const struct contact_law *law = &scene->laws[0];
     *step = NULL;
     for (size_t c = 0; c < scene->contacts; c++)
-        if (scene->laws[c].operations->lossy && (scene->contacts > 1 || scene_slipping(scene)))
+        if (scene->laws[c].operations->lossy && scene->contacts > 1)
             return false;
     if (!law->operations->lossy)
         return true;

@@ -6,6 +6,7 @@
  * against the circles of the contact integrated one by one (Ting's rule without its parabola, and
  * free circles), and their energy. */
 #include "impact/contact_step.h"
+#include "unit/impact/one_by_one.h"
 #include "unit/impact/toy_scene.h"
 
 /* A sudden indentation that is held: k d^(3/2) g(t), to rounding. */
@@ -66,66 +67,10 @@ static void free_circles_recover_by_modes(void **state)
     }
 }
 
-/* The body that is hit: an oscillator with the participation phi, which hits the ball again. */
-struct wall {
-    double omega, phi;
-    double until; /* s; 0: a rigid wall, until the ball parts */
-};
-
-/* A unit mass at unit speed on k = 1, with circles of equal depths: their displacements u and arms
- * m, time m' = u - m, exactly for displacements linear in a step. One that is free has u - sum
- * share m = 0. Returns the restitution. */
-enum { CIRCLES = 900 };
-
 static double with_circles(const struct relaxation *of, const struct wall *wall)
 {
-    static double arm[RELAXATION_MOST][CIRCLES], displaced[CIRCLES];
-    const double h = 4e-4, widest = 1.5;
-    double kept[RELAXATION_MOST], half[RELAXATION_MOST];
-    double x = 0.0, v = 1.0, q = 0.0, p = 0.0, force = 0.0;
-    memset(arm, 0, sizeof arm);
-    memset(displaced, 0, sizeof displaced);
-    for (size_t k = 0; k < of->count; k++) {
-        double z = h / of->time[k];
-        kept[k] = exp(-z);
-        half[k] = 1.0 + expm1(-z) / z; /* of the change of u within the step */
-    }
-    for (double t = 0.0;; t += h) {
-        bool any = false;
-        v -= 0.5 * h * force;
-        p += 0.5 * h * (wall->phi * force - wall->omega * wall->omega * q);
-        x += h * v;
-        q += h * p;
-        double d = x - wall->phi * q;
-        force = 0.0;
-        for (int c = 0; c < CIRCLES; c++) {
-            double y = widest * ((c + 0.5) * (c + 0.5)) / (CIRCLES * (double)CIRCLES);
-            double past = 0.0, now = 1.0;
-            if (d < y && displaced[c] == 0.0)
-                break; /* nothing has touched yet */
-            for (size_t k = 0; k < of->count; k++) {
-                past +=
-                    of->share[k] * (kept[k] * arm[k][c] + (1.0 - kept[k] - half[k]) * displaced[c]);
-                now -= of->share[k] * half[k];
-            }
-            double u = d - y, f = u * now - past;
-            if (f > 0.0) {
-                any = true;
-                /* dx = sqrt(widest) / CIRCLES, and F = 3/2 int f dx */
-                force += 1.5 * sqrt(widest) / CIRCLES * f;
-            } else {
-                u = past / now;
-            }
-            for (size_t k = 0; k < of->count; k++)
-                arm[k][c] =
-                    kept[k] * arm[k][c] + half[k] * u + (1.0 - kept[k] - half[k]) * displaced[c];
-            displaced[c] = u;
-        }
-        v -= 0.5 * h * force;
-        p += 0.5 * h * (wall->phi * force - wall->omega * wall->omega * q);
-        if (wall->until > 0.0 ? t > wall->until : !any && t > 0.1)
-            return -v;
-    }
+    static const struct spin none = {0.0, 0.0, 0.0, 0.0};
+    return one_by_one(of, 0.0, wall, &none).up;
 }
 
 static struct impact_outcome run(struct toy *toy, double accuracy)
