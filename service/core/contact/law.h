@@ -114,9 +114,9 @@ struct contact_law contact_law_dissipative(double stiffness, double exponent, do
  * back 1 - hysteresis (0 <= hysteresis < 1), see law_power.c. */
 struct contact_law contact_law_power(double stiffness, double exponent, double hysteresis);
 
-/* Why a law is not followed in a scene of so many contacts, so many of them with micro-slip, as the
- * end of a message: "the member: what it must be". NULL: it is. */
-const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t slipping);
+/* Why a law is not followed in a scene of so many contacts, so many of them with friction by CVODE,
+ * as the end of a message. NULL: it is. */
+const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t rubbing);
 
 /* The operations of each model that can be requested, with its name in capitals. */
 #define CONTACT_LAW_DECLARATION(name, text)                                                        \

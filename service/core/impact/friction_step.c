@@ -19,22 +19,26 @@ static size_t cells_for(double accuracy)
     return cells < FEWEST_CELLS ? FEWEST_CELLS : cells < MOST_CELLS ? (size_t)cells : MOST_CELLS;
 }
 
-static bool scene_loses(const struct scene *scene)
+/* Of friction `i`, where the contact's law has a loss; else NULL. */
+static struct circle_step *circles_of(const struct friction_step *step, size_t i)
 {
-    for (size_t i = 0; i < scene->frictions; i++)
-        if (scene->laws[scene->friction[i].contact].operations->lossy)
-            return true;
-    return false;
+    return step->circles ? step->circles[i] : NULL;
 }
 
-static bool create_circles(struct friction_step *step, const struct scene *scene, size_t parts,
-                           struct arena *arena)
+static bool create_circles(struct friction_step *step, const struct scene *scene, size_t i,
+                           size_t parts, struct arena *arena)
 {
-    step->circles = arena_take(arena, step->count, sizeof *step->circles);
-    for (size_t i = 0; step->circles && i < step->count; i++)
-        if (!circle_step_create(&step->circles[i], scene, i, parts, step->points, arena))
-            return false;
-    return step->circles != NULL;
+    struct circle_step *made = step->circles[i] = arena_take(arena, 1, sizeof *made);
+    return made && circle_step_create(made, scene, i, parts, step->points, arena);
+}
+
+static bool create_cells(struct friction_step *step, const struct scene *scene, size_t i,
+                         size_t parts, struct arena *arena)
+{
+    const struct scene_friction *of = &scene->friction[i];
+    return friction_create(&step->now[i], of->coefficient, of->ratio, parts, arena) &&
+           friction_second(&step->along[i], &step->now[i], arena) &&
+           friction_second(&step->after[i], &step->now[i], arena);
 }
 
 bool friction_step_create(struct friction_step *step, const struct scene *scene, double accuracy,
@@ -53,19 +57,16 @@ bool friction_step_create(struct friction_step *step, const struct scene *scene,
     step->stuck = arena_take(arena, 2 * n, sizeof *step->stuck);
     step->points = arena_take(arena, 1, sizeof *step->points);
     step->taken = arena_take(arena, 3 * n, sizeof *step->taken);
-    if (!step->now || !step->stuck || !step->points || !step->taken)
+    step->circles = arena_take(arena, n, sizeof *step->circles);
+    if (!step->now || !step->stuck || !step->points || !step->taken || !step->circles)
         return false;
     step->across = step->stuck + n;
     step->along = step->now + n;
     step->after = step->along + n;
     slip_points_make(step->points);
-    if (scene_loses(scene))
-        return create_circles(step, scene, cells, arena);
     for (size_t i = 0; i < n; i++) {
-        const struct scene_friction *of = &scene->friction[i];
-        if (!friction_create(&step->now[i], of->coefficient, of->ratio, cells, arena) ||
-            !friction_second(&step->along[i], &step->now[i], arena) ||
-            !friction_second(&step->after[i], &step->now[i], arena))
+        bool lossy = scene->laws[scene->friction[i].contact].operations->lossy;
+        if (!(lossy ? create_circles : create_cells)(step, scene, i, cells, arena))
             return false;
     }
     return true;
@@ -101,8 +102,9 @@ void friction_step_begin(struct friction_step *step, const struct scene *scene, 
         size_t contact = scene->friction[i].contact, row = scene_tangent(scene, i);
         const double rates[3] = {rate[contact], rate[row], rate[row + 1]};
         double none[2];
-        if (step->circles) {
-            circle_step_begin(&step->circles[i], depth[contact], time, d + row);
+        struct circle_step *circles = circles_of(step, i);
+        if (circles) {
+            circle_step_begin(circles, depth[contact], time, d + row);
         } else {
             friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
             friction_walk(&step->now[i], fmin(d[contact], 0.0), d + row, none);
@@ -174,7 +176,8 @@ static bool walk_nodes(struct friction_step *step, size_t i, const struct fricti
 
 bool friction_step_slid(const struct friction_step *step, size_t i)
 {
-    return (step->circles ? step->circles[i].now.stuck : step->now[i].stuck) == 0.0;
+    const struct circle_step *circles = circles_of(step, i);
+    return (circles ? circles->now.stuck : step->now[i].stuck) == 0.0;
 }
 
 /* The tangent of the angle by which the slip turns between a step's start and its last node, up to
@@ -196,9 +199,10 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
                          const double normal[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES])
 {
-    if (step->circles) {
+    struct circle_step *circles = circles_of(step, i);
+    if (circles) {
         const struct circle_forces forces = {force, stiffness, step->across[i], step->stuck[i]};
-        circle_step_nodes(&step->circles[i], way, normal, &forces);
+        circle_step_nodes(circles, way, normal, &forces);
         return;
     }
     bool slides = friction_step_slid(step, i) && turns_little(step, way) &&
@@ -210,8 +214,9 @@ void friction_step_nodes(struct friction_step *step, size_t i, const struct fric
 void friction_step_end(struct friction_step *step, size_t i, const struct friction_way *way,
                        double normal, double force[2], double stiffness[2])
 {
-    if (step->circles) {
-        circle_step_end(&step->circles[i], way, normal, force, stiffness);
+    struct circle_step *circles = circles_of(step, i);
+    if (circles) {
+        circle_step_end(circles, way, normal, force, stiffness);
         return;
     }
     struct friction *after = &step->after[i];
@@ -228,7 +233,8 @@ void friction_step_end(struct friction_step *step, size_t i, const struct fricti
 bool friction_step_slides(const struct friction_step *step, size_t i)
 {
     const double *stuck = step->stuck[i];
-    double after = step->circles ? step->circles[i].after.stuck : step->after[i].stuck;
+    const struct circle_step *circles = circles_of(step, i);
+    double after = circles ? circles->after.stuck : step->after[i].stuck;
     return stuck[0] + stuck[1] + stuck[2] + stuck[3] + after == 0.0;
 }
 
@@ -236,7 +242,7 @@ void friction_step_deepen(struct friction_step *step, const struct scene *scene,
                           double deeper)
 {
     size_t friction = scene_friction_of(scene, contact);
-    if (friction < step->count && !step->plain && !step->circles)
+    if (friction < step->count && !step->plain && !circles_of(step, friction))
         friction_deepen(&step->now[friction], deeper);
 }
 
@@ -247,9 +253,12 @@ void friction_step_take(struct friction_step *step, const struct scene *scene, i
         coulomb_take(&step->coulomb);
         return;
     }
-    for (size_t i = 0; step->circles && i < step->count; i++)
-        circle_step_take(&step->circles[i], level, force + scene_tangent(scene, i));
-    for (size_t i = 0; !step->circles && i < step->count; i++) {
+    for (size_t i = 0; i < step->count; i++) {
+        struct circle_step *circles = circles_of(step, i);
+        if (circles) {
+            circle_step_take(circles, level, force + scene_tangent(scene, i));
+            continue;
+        }
         struct friction taken = step->after[i];
         step->after[i] = step->now[i];
         step->now[i] = taken;
@@ -272,24 +281,27 @@ double friction_step_rounding(const struct friction_step *step, size_t i)
 
 double friction_step_lost(const struct friction_step *step, size_t i)
 {
-    if (step->circles)
-        return circle_step_lost(&step->circles[i]);
+    const struct circle_step *circles = circles_of(step, i);
+    if (circles)
+        return circle_step_lost(circles);
     return step->plain ? step->coulomb.lost[i] : step->now[i].lost;
 }
 
 double friction_step_stored(const struct friction_step *step, size_t i)
 {
-    if (step->circles)
-        return step->circles[i].now.stored;
+    const struct circle_step *circles = circles_of(step, i);
+    if (circles)
+        return circles->now.stored;
     return step->plain ? 0.0 : friction_stored(&step->now[i]);
 }
 
 void friction_step_force(const struct friction_step *step, size_t i, double force[2])
 {
+    const struct circle_step *circles = circles_of(step, i);
     if (step->plain)
         memcpy(force, step->coulomb.force[i], sizeof step->coulomb.force[i]);
-    else if (step->circles)
-        memcpy(force, step->circles[i].now.force, sizeof step->circles[i].now.force);
+    else if (circles)
+        memcpy(force, circles->now.force, sizeof circles->now.force);
     else
         friction_force(&step->now[i], force);
 }

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The tangential forces of contacts with friction on the steps of a contact phase. With micro-slip
- * the law depends on the way (contact/friction.h): it is walked along the polynomials through the
- * step's start and nodes (impact/slip_way.h). Where a slide ends is looked for; the cells smear all
- * other instants at which some begin to stick or to slide. Plain friction (scene.h) has the law of
- * impact/coulomb.h. */
+ * the law depends on the way (contact/friction.h; impact/circle_step.h where the contact has a
+ * loss): it is walked along the polynomials through the step's start and nodes (impact/slip_way.h).
+ * Where a slide ends is looked for; the cells smear all other instants at which some begin to stick
+ * or to slide. Plain friction (scene.h) has the law of impact/coulomb.h. */
 #ifndef PERCUSS_IMPACT_FRICTION_STEP_H
 #define PERCUSS_IMPACT_FRICTION_STEP_H
 
@@ -31,9 +31,8 @@ struct friction_step {
     double (*taken)[NODES];
     int level;
     struct slip_points *points;
-    struct circle_step *circles; /* [count]: where a law has a loss: instead of the cells; else
-                                    NULL */
-    struct coulomb coulomb;      /* plain friction: instead of all but `count` and `stuck` */
+    struct circle_step **circles; /* [count]: of contacts whose law has a loss, instead of cells */
+    struct coulomb coulomb;       /* plain friction: instead of all but `count` and `stuck` */
 };
 
 /* Memory for a scene from the arena, with cells for a relative accuracy of the forces. False: out

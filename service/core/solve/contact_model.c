@@ -150,14 +150,11 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
     return true;
 }
 
-/* Contacts with micro-slip. Where nothing slides plain friction, which CVODE has not, is the same.
- */
-static size_t slipping(const struct problem *problem)
+/* Contacts with friction by CVODE, which has none beside a law with a loss. */
+static size_t rubbing(const struct problem *problem)
 {
-    const struct solve_options *options = &problem->request->options;
-    bool slips = options->friction != PERCUSS_FRICTION_PLAIN &&
-                 (options->method == PERCUSS_METHOD_CVODE || problem_slides(problem));
-    return slips ? problem->friction_count : 0;
+    bool cvode = problem->request->options.method == PERCUSS_METHOD_CVODE;
+    return cvode ? problem->friction_count : 0;
 }
 
 /* The catalogue's law of the two materials, for auto and where it is asked for. */
@@ -183,7 +180,7 @@ static enum percuss_status find_own(struct problem *problem, const struct body_s
     if (status)
         return status;
     struct contact_law law = contact_law_own(own, curves);
-    const char *why = contact_law_refuses(&law, problem->contact_count, slipping(problem));
+    const char *why = contact_law_refuses(&law, problem->contact_count, rubbing(problem));
     if (why)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: the law %s, which has a dissipation: %s (another "
@@ -269,11 +266,11 @@ static bool states_loss(const struct problem *problem, size_t c)
 /* Why a contact cannot lose what its materials do; NULL: it can. */
 static const char *why_lossless(const struct problem *problem)
 {
-    size_t slips = slipping(problem);
-    if (problem->contact_count == 1 && slips == 0 && !states_loss(problem, 0))
+    size_t rubs = rubbing(problem);
+    if (problem->contact_count == 1 && rubs == 0 && !states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
-    return contact_law_refuses(&law, problem->contact_count, slips);
+    return contact_law_refuses(&law, problem->contact_count, rubs);
 }
 
 /* The law of the only contact, where its bodies state a loss. */

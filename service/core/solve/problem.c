@@ -123,40 +123,7 @@ double problem_inverse_mass(const struct problem *problem, size_t i, size_t j)
     return sum;
 }
 
-/* Slip over the approach below which the impulse along the surface is nothing; inverse masses that
- * are rounding beside another. */
-static const double NO_SLIP = 1e-6;
-static const double NO_COUPLING = 1e-12;
-
-/* The surfaces have no slip, and no normal force causes one. Of bodies that vibrate some mode may.
- */
-static bool is_straight(const struct problem *problem, size_t friction)
-{
-    size_t c = problem->friction[friction].contact;
-    size_t n = problem->contact_count, rows = problem_rows(problem);
-    if (norm3(problem->sliding[c]) > NO_SLIP * fabs(problem->gap_rate[c]))
-        return false;
-    for (int which = 0; which < 2; which++)
-        if (body_can_vibrate(problem_body(problem, c, which)))
-            return false;
-    for (size_t row = n + 2 * friction; row < n + 2 * friction + 2; row++)
-        for (size_t r = 0; r < n; r++)
-            if (fabs(problem->row_w[row * rows + r]) > NO_COUPLING * problem->row_w[r * (rows + 1)])
-                return false;
-    return true;
-}
-
-bool problem_slides(const struct problem *problem)
-{
-    for (size_t i = 0; i < problem->friction_count; i++)
-        if (!is_straight(problem, i))
-            return true;
-    return false;
-}
-
 bool problem_is_plain(const struct problem *problem)
 {
-    return problem->request->options.friction == PERCUSS_FRICTION_PLAIN ||
-           (problem->friction_count > 0 && problem->contact_model.laws &&
-            problem->contact_model.laws[0].operations->lossy);
+    return problem->request->options.friction == PERCUSS_FRICTION_PLAIN;
 }

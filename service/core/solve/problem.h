@@ -178,12 +178,7 @@ const struct family_load *problem_load(const struct problem *problem, size_t row
 /* Velocity along row i due to a unit impulse along row j, 1/kg: the bodies that both share. */
 double problem_inverse_mass(const struct problem *problem, size_t i, size_t j);
 
-/* Whether surfaces with friction may slide along each other: not of rigid bodies that meet without
- * a slip, where no normal force makes one. */
-bool problem_slides(const struct problem *problem);
-
-/* Whether friction is plain: asked for, or the law of the only contact has a loss, beside which
- * there is no micro-slip (contact_law_refuses); until the laws are chosen: asked for. */
+/* Whether friction is plain. */
 bool problem_is_plain(const struct problem *problem);
 
 /* Where the request's delassus has that of rows i and j. */

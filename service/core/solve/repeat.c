@@ -98,15 +98,13 @@ static enum percuss_status repeat_judge(struct repeat *repeat, size_t contact,
 
 /* Whether another impact of the same bodies is the same problem but for its rates: they decide the
  * laws of bodies that yield, the waves of half-spaces, a sphere's matched compliance, whether a
- * block or cylinder vibrates (vibration.h), how far materials relax, and whether a contact with
- * friction slides, when it has no loss. */
+ * block or cylinder vibrates (vibration.h), and how far materials relax. */
 static bool lasts(const struct problem *problem)
 {
     bool lasts =
         !radiation_is_possible(problem) && !problem->compliance.by_speed && !relaxed_any(problem);
     for (size_t b = 0; b < problem->body_count; b++)
-        lasts = lasts && !(problem->bodies[b]->kind->box && body_can_vibrate(problem->bodies[b])) &&
-                !(problem->friction_count > 0 && problem->bodies[b]->loss_factor > 0.0);
+        lasts = lasts && !(problem->bodies[b]->kind->box && body_can_vibrate(problem->bodies[b]));
     for (size_t c = 0; c < problem->contact_count; c++)
         lasts = lasts && problem->contact_model.choices[c].side < 0 &&
                 !problem->contact_model.choices[c].own &&

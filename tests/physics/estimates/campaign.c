@@ -251,9 +251,14 @@ static bool has_waves(const struct body_set *set)
     return false;
 }
 
+static bool has_friction(enum scene_class class)
+{
+    return class == CLASS_OBLIQUE || class == CLASS_RUBBED;
+}
+
 /* CVODE judges alone where two of its solutions agree within the effort, and our own reference is
- * compared with it; elsewhere that one judges. CVODE has no plain friction: there solutions below
- * solve() judge, none of whose choices is an answer's. */
+ * compared with it; elsewhere, as where bodies have a loss, that one judges. CVODE has no plain
+ * friction: there solutions below solve() judge, none of whose choices is an answer's. */
 static bool find_oblique(struct campaign *campaign, const struct scene_drawn *scene,
                          uint64_t number, const struct truth_settings *wanted, struct truth *truth)
 {
@@ -262,7 +267,8 @@ static bool find_oblique(struct campaign *campaign, const struct scene_drawn *sc
     if (campaign->settings.plain)
         return truth_find(campaign->room, &campaign->lab->set, &scene->plain, wanted, truth);
     bool found = find_by_answer(campaign, scene, truth);
-    bool by_cvode = wanted->modes <= CVODE_MODES && !has_waves(&campaign->lab->set) &&
+    bool by_cvode = campaign->settings.class != CLASS_RUBBED && wanted->modes <= CVODE_MODES &&
+                    !has_waves(&campaign->lab->set) &&
                     truth_find(campaign->room, &campaign->lab->set, &scene->plain, wanted, &cvode);
     if (!by_cvode || cvode.spread > settled)
         return found;
@@ -279,7 +285,7 @@ static void judge_all(struct campaign *campaign, struct scene_drawn *scene, uint
 {
     const struct campaign_settings *settings = &campaign->settings;
     const double tightest = campaign_tolerances[CAMPAIGN_TOLERANCES - 1];
-    const bool oblique = settings->class == CLASS_OBLIQUE;
+    const bool oblique = has_friction(settings->class);
     const struct truth_settings wanted = {.goal = 0.2 * TALLY_SETTLED * tightest,
                                           .effort = settings->effort,
                                           .cvode = oblique && !settings->plain,
@@ -342,8 +348,7 @@ void campaign_print(const struct campaign *campaign)
     if (!csv && campaign->refused + campaign->broken)
         printf("%s: %zu refused, %zu broken invariants\n", word, campaign->refused,
                campaign->broken);
-    for (int t = 0; !csv && campaign->settings.class == CLASS_OBLIQUE && t < CAMPAIGN_TOLERANCES;
-         t++)
+    for (int t = 0; !csv && has_friction(campaign->settings.class) && t < CAMPAIGN_TOLERANCES; t++)
         printf("%s: at %g tangential impulses of %zu in %zu are covered\n", word,
                campaign_tolerances[t], campaign->all[t].tangential, campaign->all[t].judged);
     if (!csv && campaign->by_cvode)

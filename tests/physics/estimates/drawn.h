@@ -18,7 +18,8 @@
     X(ROLLED, "rolled", "two flexible bars, rolled about their axes")                              \
     X(CHAIN, "chain", "two to five blows by token, damped or not")                                 \
     X(OBLIQUE, "oblique", "contacts with friction, at any angle")                                  \
-    X(LOSSY, "lossy", "a sphere on a wall, a rod or a beam, of plastics and rubber")
+    X(LOSSY, "lossy", "a sphere on a wall, a rod or a beam, of plastics and rubber")               \
+    X(RUBBED, "rubbed", "the same with friction, at any angle")
 
 enum scene_class {
 #define X(name, word, text) CLASS_##name,
@@ -71,6 +72,7 @@ void scene_draw_eccentric(struct lab *lab, uint64_t *r, struct scene_drawn *scen
 void scene_draw_rolled(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_lossy(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
+void scene_draw_rubbed(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 
 /* A beam of any ends in the lab under that id; returns it. */
 const struct body *scene_beam(struct lab *lab, uint64_t *r, const char *id);

@@ -110,3 +110,12 @@ void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     scene_say(scene, "%s%s, approach %.4g m/s, mu %.3g", scene->text[0] ? "; " : "", kinds[kind],
               approach, lab->set.friction[0].coefficient);
 }
+
+void scene_draw_rubbed(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
+{
+    scene_draw_lossy(lab, r, scene);
+    struct solve_body *ball = &scene->request.bodies[0];
+    throw(r, ball, body_set_find(&lab->set, ball->id)->radius, norm3(ball->velocity));
+    set_coefficients(lab, r);
+    scene_say(scene, ", mu %.3g", lab->set.friction[0].coefficient);
+}

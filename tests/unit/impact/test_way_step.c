@@ -75,12 +75,12 @@ static void cvode_finds_the_same(void **state)
                             : contact_law_dissipative(1.0, 1.0 + draw(), 0.1 + draw());
         toy.residual[0] = 0.1 * draw() - 0.04;
         toy.gap_rate[0] = -1.0;
-        struct impact_outcome modal = toy_run(&toy, 1e-9, 100.0);
+        struct impact_outcome modal = toy_run(&toy, 1e-10, 100.0);
         struct impact_outcome cvode = toy_cvode(&toy, 1e-10, 100.0);
         const struct track *a = &modal.tracks[0], *b = &cvode.tracks[0];
         assert_int_equal(a->count, 1);
         assert_int_equal(b->count, 1);
-        /* both have the accuracy of the modal method */
+        /* the modal method's steps, of several blows a contact, leave up to 6e-9 */
         measured("restitution", modal.motion.gap_rate[0], cvode.motion.gap_rate[0], 7e-9);
         measured("lost", modal.relaxed, cvode.relaxed, 7e-9);
         measured("closure", modal.energy.closure, 0.0, 1e-10);

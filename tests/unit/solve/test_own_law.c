@@ -216,10 +216,14 @@ static void asked_for(void **state)
     struct solve_request request = balls(1.0);
     request.contacts[0].friction = 0.2;
     request.bodies[0].velocity[0] = 1.0;
-    refused(lab, &request,
-            "contacts[0]: the law pad, which has a dissipation: it has no micro-slip");
+    refused(lab, &request, "contacts[0]: the law pad has exponent 1: with micro-slip");
     law.dissipation = 0.0;
     refused(lab, &request, "contacts[0]: the law pad has exponent 1: with micro-slip");
+    law.exponent = 1.5;
+    law.dissipation = 0.1;
+    request.options.method = PERCUSS_METHOD_CVODE;
+    refused(lab, &request,
+            "contacts[0]: the law pad, which has a dissipation: method cvode has no friction");
     /* another model takes no law of the catalogue; that law needs one */
     request = balls(1.0);
     request.options.contact_model = PERCUSS_CONTACT_HERTZ;

@@ -476,15 +476,15 @@ double loss_worst(const struct problem *problem, const struct impact_outcome *ou
     return worst;
 }
 
-/* What friction would leave the loss in the answer, where it is friction that keeps it out. */
-static const char *friction_with_loss(const struct problem *problem)
+/* What would have the loss in the answer, where it is CVODE that keeps it out. */
+static const char *method_with_loss(const struct problem *problem)
 {
     const struct solve_options *options = &problem->request->options;
     if (problem->contact_count > 1 || problem->friction_count == 0 ||
-        problem->contact_model.yielding || options->contact_model != PERCUSS_CONTACT_AUTO)
+        problem->contact_model.yielding || options->contact_model != PERCUSS_CONTACT_AUTO ||
+        options->method != PERCUSS_METHOD_CVODE)
         return "";
-    return options->method == PERCUSS_METHOD_CVODE ? "; options.friction none has it"
-                                                   : "; options.friction plain or none has it";
+    return "; method modal has it, or options.friction none";
 }
 
 /* Of both bodies together more than the tolerance: each that has half of it or more. */
@@ -501,7 +501,7 @@ static void find_stated_loss(const struct problem *problem, size_t contact, doub
                 "contacts[%zu]: what %s loses of itself in the contact (loss_factor %.3g) is not "
                 "in the answer: the restitution is lower by about %.2g; the tolerance is %.2g%s",
                 contact, body->id, body->loss_factor, whole, problem->tolerance,
-                friction_with_loss(problem));
+                method_with_loss(problem));
     }
 }
 
