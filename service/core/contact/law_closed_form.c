@@ -24,6 +24,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "contact/plastic.h"
 
 enum { STIFFNESS, YIELD_DEPTH, RADIUS, GROWTH, HARDNESS }; /* k, d_c, R, B, 4 * 2.84 / C */
@@ -64,7 +65,7 @@ double closed_form_radius(const struct hertz_contact *hertz)
 double closed_form_yield(const struct hertz_contact *hertz, const struct material *a,
                          const struct material *b)
 {
-    double root = 0.5 * M_PI * fmin(closed_form_pressure(a), closed_form_pressure(b)) /
+    double root = 0.5 * M_PI * smaller(closed_form_pressure(a), closed_form_pressure(b)) /
                   hertz->effective_modulus;
     double ratio = hertz_pressure_ratio(hertz);
     return root * root * closed_form_radius(hertz) / (ratio * ratio);
@@ -74,14 +75,14 @@ double closed_form_restitution(double times, double strain)
 {
     const double first = 60.0, last = 1000.0;
     double speed = sqrt(times);
-    double within = fmin(speed, last);
+    double within = smaller(speed, last);
     if (!(speed > 1.0))
         return 1.0;
     if (speed <= first)
         return 1.0 - 0.1 * log(speed) * pow((speed - 1.0) / (first - 1.0), 0.156);
     double fit =
         1.0 - 0.1 * log(first) - 0.11 * log(within / first) * pow(within - first, 2.36 * strain);
-    return fmax(fit, 0.0) * sqrt(sqrt(within / speed));
+    return larger(fit, 0.0) * sqrt(sqrt(within / speed));
 }
 
 static double closed_form_elastic(const struct contact_law *law, double d, double *slope)
@@ -168,10 +169,10 @@ static double closed_form_loading_work(const struct contact_law *law, double d)
     const double panel = 0.35;
     double start = PLASTIC_FROM * law->parameters[YIELD_DEPTH];
     double full = PLASTIC_FULL * law->parameters[YIELD_DEPTH];
-    double elastic = fmin(d, start);
+    double elastic = smaller(d, start);
     double sum = 0.4 * law->parameters[STIFFNESS] * elastic * elastic * sqrt(elastic);
     if (d > start)
-        sum += work_between(law, start, fmin(d, full), step_panel);
+        sum += work_between(law, start, smaller(d, full), step_panel);
     if (d > full)
         sum += work_between(law, full, d, panel);
     return sum;
@@ -195,10 +196,10 @@ static double closed_form_residual_depth(const struct contact_law *law, double d
     if (!(w > 1.0))
         return 0.0;
     /* elastic recovery */
-    double back = 1.02 * pow((fmin(w, SPRING_FIT) + 5.9) / 6.9, -0.54) - 0.02;
+    double back = 1.02 * pow((smaller(w, SPRING_FIT) + 5.9) / 6.9, -0.54) - 0.02;
     if (w > SPRING_FIT)
         back *= sqrt(SPRING_FIT / w);
-    double t = fmin(1.0, (w - 1.0) / (PLASTIC_FROM - 1.0));
+    double t = smaller(1.0, (w - 1.0) / (PLASTIC_FROM - 1.0));
     return d * (1.0 - back) * t * t * (3.0 - 2.0 * t);
 }
 

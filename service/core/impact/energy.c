@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/extremes.h"
 #include "numeric/linear.h"
 
 /* Eigenvalues of W below this share of the largest are rounding of 0. */
@@ -51,7 +52,7 @@ static void find_driven(const struct scene *scene, const double *mass, const dou
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++)
             momentum[i] += mass[i * n + j] * x[j];
-        largest = fmax(largest, fabs(x[i]));
+        largest = larger(fabs(x[i]), largest);
     }
     for (size_t i = 0; i < n; i++) {
         driven[i] = x[i];
@@ -124,7 +125,7 @@ static double rounding_of_work(const struct scene *scene, const double *mass,
         double force = 0.0;
         for (size_t b = 0; b < n; b++)
             force += mass[a * n + b] * scene->gap_acceleration[b];
-        sum += fabs(force) * DBL_EPSILON * fmax(fabs(scene->gap[a]), fabs(end->gap[a]));
+        sum += fabs(force) * DBL_EPSILON * larger(fabs(scene->gap[a]), fabs(end->gap[a]));
     }
     return sum;
 }

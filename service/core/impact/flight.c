@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "impact/flight_kernel.h"
 #include "impact/flight_root.h"
 
@@ -193,8 +194,8 @@ static double completion(const struct flight *flight, const struct scene *scene,
         double excess = motion->gap[c] - flight->bound[c];
         double rate = flight_root_rate(excess, motion->gap_rate[c], flight->unknown[c], left);
         flight_root_exceeds(excess, rate, scene->gap_acceleration[c], &first, &last);
-        from = fmax(from, first);
-        until = fmin(until, last);
+        from = larger(from, first);
+        until = smaller(until, last);
     }
     return from <= until ? from : INFINITY;
 }
@@ -235,7 +236,7 @@ static void find_end(struct scan *scan)
     double complete =
         passed + completion(scan->flight, scan->scene, scan->now, scan->allowed - passed);
     scan->reason = complete <= scan->allowed ? FLIGHT_COMPLETE : FLIGHT_TIMEOUT;
-    scan->end = fmin(complete, scan->allowed);
+    scan->end = smaller(complete, scan->allowed);
 }
 
 /* Finds the next interval that stays open. Returns the time from now of a touch in it; INFINITY:
@@ -301,7 +302,7 @@ static enum flight_end land(struct scan *scan, enum flight_end end, double time,
     for (size_t g = 0; g < scan->scene->groups; g++) {
         struct flight_modes modes =
             flight_modes_of(&scan->scene->group[g], 0, scan->now->q[g], scan->now->v[g]);
-        flight_kernel_turn(&modes, fmax(0.0, left), probe->q[g], probe->v[g]);
+        flight_kernel_turn(&modes, larger(0.0, left), probe->q[g], probe->v[g]);
     }
     move_gaps(probe, scan->scene, scan->start, time);
     return end;
@@ -344,7 +345,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
                             const struct motion *motion, double allowed, unsigned long intervals,
                             double *time, size_t *contact)
 {
-    int floor = step_level(fmin(flight_root_longest(scene), allowed));
+    int floor = step_level(smaller(flight_root_longest(scene), allowed));
     struct scan scan = {.flight = flight,
                         .scene = scene,
                         .start = motion,

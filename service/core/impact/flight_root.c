@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "impact/flight_kernel.h"
 
 /* With x(t) = excess + rate t + acceleration t^2/2 and D = rate^2 - 2 acceleration excess, x has
@@ -21,7 +22,7 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
         if (excess >= 0.0 && (rate >= 0.0 || (acceleration > 0.0 && discriminant < 0.0)))
             *first = 0.0;
         else if (acceleration > 0.0)
-            *first = (sqrt(fmax(0.0, discriminant)) - rate) / acceleration;
+            *first = (sqrt(larger(0.0, discriminant)) - rate) / acceleration;
         else if (rate > 0.0)
             *first = -excess / rate;
         return;

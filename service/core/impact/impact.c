@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "impact/impact_scale.h"
 
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena)
@@ -37,7 +38,7 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
 
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings)
 {
-    return (unsigned long)(fmax(0.0, settings->max_work) / step_cost(scene));
+    return (unsigned long)(larger(0.0, settings->max_work) / step_cost(scene));
 }
 
 double impact_work(const struct scene *scene, const struct impact_outcome *outcome)

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
+
 /* A power law needs one round, one with joints some more; a thousandth is enough for a scale. The
  * first indentation is arbitrary. */
 enum { MAX_ROUNDS = 20 };
@@ -63,7 +65,7 @@ static double indentation_of_energy(const struct contact_law *law, double energy
 struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, double rate)
 {
     const struct contact_law *law = &scene->laws[contact];
-    double speed = fmax(fabs(rate), LEAST_SPEED);
+    double speed = larger(fabs(rate), LEAST_SPEED);
     struct impact_scale scale = {.duration = INFINITY};
     double felt = NAN;
     for (int round = 0; round < MASS_ROUNDS; round++) {

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/extremes.h"
 #include "impact/energy.h"
 #include "impact/flight.h"
 #include "impact/impact_scale.h"
@@ -151,7 +152,7 @@ static double first_touch(const struct march *march)
     double first = INFINITY;
     for (size_t c = 0; c < march->scene.contacts; c++)
         if (march->outcome->tracks[c].count)
-            first = fmin(first, march->outcome->tracks[c].list[0].start);
+            first = smaller(first, march->outcome->tracks[c].list[0].start);
     return isfinite(first) ? first : 0.0;
 }
 
@@ -340,7 +341,7 @@ static double deepest_overlap(const struct scene *scene, const struct motion *mo
         double d;
         double rate;
         motion_approach(motion, scene, c, &d, &rate);
-        deepest = fmax(deepest, d);
+        deepest = larger(d, deepest);
     }
     return deepest;
 }

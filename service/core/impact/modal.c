@@ -101,10 +101,10 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
     double half = sqrt(accuracy);
     double event = scene->laws[0].operations->lossy ? PARTING : limits->event;
     return (struct step_limits){
-        .roughness = fmin(limits->roughest, limits->roughness * root * root),
-        .event_share = fmin(limits->longest_event, event * half),
-        .opening_share = fmin(limits->longest_opening, limits->opening * half),
-        .coupling = fmin(CLOSEST, COUPLING * root),
+        .roughness = smaller(limits->roughest, limits->roughness * root * root),
+        .event_share = smaller(limits->longest_event, event * half),
+        .opening_share = smaller(limits->longest_opening, limits->opening * half),
+        .coupling = smaller(CLOSEST, COUPLING * root),
     };
 }
 
@@ -153,8 +153,8 @@ static void step_limits_project(struct step_limits *limits, const struct scene *
     double share = ends->end * pow(settings->accuracy, 0.3);
     limits->plain[0] = limits->event_share;
     limits->plain[1] = limits->opening_share;
-    limits->projected[0] = fmax(limits->event_share, fmin(ends->longest_event, share));
-    limits->projected[1] = fmax(limits->opening_share, fmin(ends->longest_opening, share));
+    limits->projected[0] = larger(limits->event_share, smaller(ends->longest_event, share));
+    limits->projected[1] = larger(limits->opening_share, smaller(ends->longest_opening, share));
 }
 
 /* Largest work of the acceleration along the scale's indentation, over the approach's energy, that
@@ -191,7 +191,7 @@ static double stable_alone(const struct scene_group *group, const double *phi, d
         largest = phi[k] * phi[k] > largest ? phi[k] * phi[k] : largest;
     /* phi^2 (dF/dd) h/omega <= coupling with omega = RESOLVED/h; or a step that resolves all */
     double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
-    return fmax(coupled, RESOLVED / group->set->omega[group->count - 1]);
+    return larger(coupled, RESOLVED / group->set->omega[group->count - 1]);
 }
 
 /* For a contact among several, mode by mode: omega h <= RESOLVED or phi^2 (dF/dd) h/omega <=
@@ -204,7 +204,7 @@ static double stable_beside(const struct scene_group *group, const double *phi, 
         double omega = group->set->omega[k];
         double pumped = phi[k] * phi[k] * stiffness;
         if (omega * longest > RESOLVED && pumped * longest > coupling * omega)
-            longest = fmax(RESOLVED / omega, coupling * omega / pumped);
+            longest = larger(RESOLVED / omega, coupling * omega / pumped);
     }
     return longest;
 }
@@ -226,7 +226,7 @@ static double step_limits_stable(const struct scene *scene, size_t contact,
             continue;
         double of_group = scene->contacts > 1 ? stable_beside(group, phi, stiffness, coupling)
                                               : stable_alone(group, phi, stiffness, coupling);
-        longest = fmin(longest, of_group);
+        longest = smaller(longest, of_group);
     }
     return longest;
 }
@@ -683,7 +683,7 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     struct contact_start after = step_values_after(&step, h);
     if (!run->march.closed[c] && (end > 0.0 || bears(run, c)))
         open_contact(run, c, start + h * step_values_closing(&step),
-                     fmax(run->now[c].rate, after.rate));
+                     larger(run->now[c].rate, after.rate));
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (run->march.scene.frictions)
@@ -780,7 +780,7 @@ static void begin_phase(struct modal_run *run, size_t contact)
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         double d, rate;
         motion_approach(motion, &run->march.scene, c, &d, &rate);
-        run->now[c] = (struct contact_start){c == contact ? 0.0 : fmin(d, 0.0), rate, 0.0, 0.0};
+        run->now[c] = (struct contact_start){c == contact ? 0.0 : smaller(d, 0.0), rate, 0.0, 0.0};
         if (c == contact)
             open_contact(run, c, motion->time, rate);
     }

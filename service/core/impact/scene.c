@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
+
 enum percuss_status scene_prepare(const struct scene *scene, int level, struct pace *pace)
 {
     for (size_t g = 0; g < scene->groups; g++) {
@@ -43,7 +45,7 @@ double scene_highest_frequency(const struct scene *scene)
     double highest = 0.0;
     for (size_t g = 0; g < scene->groups; g++)
         if (scene->group[g].count)
-            highest = fmax(highest, scene->group[g].set->omega[scene->group[g].count - 1]);
+            highest = larger(highest, scene->group[g].set->omega[scene->group[g].count - 1]);
     return highest;
 }
 
@@ -52,6 +54,6 @@ double scene_longest_period(const struct scene *scene)
     double lowest = INFINITY;
     for (size_t g = 0; g < scene->groups; g++)
         if (scene->group[g].count)
-            lowest = fmin(lowest, scene->group[g].set->omega[0]);
+            lowest = smaller(lowest, scene->group[g].set->omega[0]);
     return isfinite(lowest) ? 2.0 * M_PI / lowest : 0.0;
 }

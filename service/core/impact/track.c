@@ -77,16 +77,16 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
     double divided[POINTS];
     double low = place[i > 0 ? i - 1 : 0];
     double high = place[i + 1 < POINTS ? i + 1 : i];
-    double s = fmin(fmax(place[i], WITHIN), 1.0 - WITHIN);
+    double s = smaller(larger(place[i], WITHIN), 1.0 - WITHIN);
     memcpy(divided, value, sizeof divided);
     divide(place, divided);
     /* a root of its slope, while its second derivative is negative */
     differentiate(place, divided, s, d);
     for (int round = 0; round < PEAK_ROUNDS && d[2] < 0.0; round++) {
-        s = fmin(fmax(s - d[1] / d[2], low), high);
+        s = smaller(larger(s - d[1] / d[2], low), high);
         differentiate(place, divided, s, d);
     }
-    *peak = fmax(d[0], value[i]);
+    *peak = larger(d[0], value[i]);
     return d[0] > value[i] ? s : place[i];
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "model/bar.h"
 #include "model/bar_waves.h"
 #include "model/key.h"
@@ -47,7 +48,7 @@ static enum percuss_status rod_complete(struct body *body, struct fault *fault)
 
 static double rod_smallest_radius(const struct body *body)
 {
-    return fmin(fmin(body->radius, body->tip_radius), 0.5 * body->length);
+    return smaller(smaller(body->radius, body->tip_radius), 0.5 * body->length);
 }
 
 static int rod_faces(const struct body *body, const double p[3], struct face *faces)

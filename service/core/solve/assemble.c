@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "impact/oscillator.h"
 #include "model/damping.h"
 #include "solve/mode_choice.h"
@@ -157,7 +158,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     assembly->scene.groups++;
     assembly->modes[add->body] += group->count;
     assembly->all_modes += group->count;
-    assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
+    assembly->highest = larger(assembly->highest, group->set->omega[group->count - 1]);
     return true;
 }
 
@@ -176,7 +177,7 @@ static void add_omitted(const struct addition *add, const double *left)
             continue;
         /* rounding may leave it below zero */
         double beyond =
-            modal_beyond(body, add->prepared->modes, add->count, load, fmax(left[i], 0.0));
+            modal_beyond(body, add->prepared->modes, add->count, load, larger(left[i], 0.0));
         /* the sums of struct omitted as integrals, shapes alike and frequencies evenly spaced:
          * phi^2/omega^2 adds up to beyond, 2 damping phi^2/omega^3 to damping beyond/omega */
         assembly->omitted[i].inertia += beyond / (stand_in * stand_in);
@@ -185,7 +186,7 @@ static void add_omitted(const struct addition *add, const double *left)
         assembly->parts[assembly->part_count++] =
             (struct omitted_part){add->body, i, add->family, add->count, beyond, omega};
     }
-    assembly->lowest_omitted = fmin(assembly->lowest_omitted, omega);
+    assembly->lowest_omitted = smaller(assembly->lowest_omitted, omega);
 }
 
 static bool add_family(const struct addition *add, double *residual)

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "contact/law_closed_form.h"
 #include "contact/law_own.h"
 #include "contact/plastic.h"
@@ -345,7 +346,7 @@ enum percuss_status contact_model_choose(struct problem *problem, const struct b
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
-        likely = likely || problem_indentation(problem, c, fmin(0.0, problem->gap_rate[c])) >
+        likely = likely || problem_indentation(problem, c, smaller(0.0, problem->gap_rate[c])) >
                                model->choices[c].yield;
     }
     enum percuss_status status = find_lossy(problem, fault);
@@ -371,8 +372,8 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
     if (law->operations->tables != CONTACT_TABLES_ONLY)
         return 0.0;
     double range = contact_law_table_range(law);
-    double depth = fmax(law->history.max_indentation, outcome_deepest(outcome, contact));
-    return fmax(0.0, depth / range - 1.0);
+    double depth = larger(law->history.max_indentation, outcome_deepest(outcome, contact));
+    return larger(depth / range - 1.0, 0.0);
 }
 
 bool contact_model_revise(struct problem *problem, const struct impact_outcome *outcome)
@@ -434,8 +435,8 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
     size_t hardest = hardest_hit(problem, outcome);
     const struct contact_choice *choice = &problem->contact_model.choices[hardest];
     for (size_t c = 0; c < problem->contact_count; c++)
-        pressure =
-            fmax(pressure, hertz_peak_pressure(&problem->hertz[c], outcome_peak_force(outcome, c)));
+        pressure = larger(hertz_peak_pressure(&problem->hertz[c], outcome_peak_force(outcome, c)),
+                          pressure);
     text_add(text, contact_model_used(problem)->title);
     text_add(text, " (peak pressure ");
     text_add_number(text, pressure / 1e6, 3);
@@ -696,9 +697,9 @@ static double largest_stiffness(const struct problem *problem, const struct impa
     double force = outcome_peak_force(outcome, c), slope = 0.0;
     if (problem->contact_model.choices[c].own) {
         contact_law_force(law, outcome_deepest(outcome, c), &slope);
-        return fmax(slope, contact_law_unloading(law));
+        return larger(slope, contact_law_unloading(law));
     }
-    return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
+    return larger(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 
 /* Most modes of a mesh that take part. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "model/rigid.h"
 #include "model/vector.h"
@@ -119,7 +120,7 @@ static enum percuss_status refuse_shape(const struct problem *problem, size_t in
                           &problem->sides[index][1].site, &problem->poses[contact->b],
                           contact->normal, along);
     int hollow = along[0] < along[1] ? 0 : 1;
-    double largest = fmax(fabs(along[0]), fabs(along[1]));
+    double largest = larger(fabs(along[0]), fabs(along[1]));
     /* neither lies closer than the other leaves room for */
     if (!(2.0 * curvature[0] < -HERTZ_LINE_RATIO * largest))
         return fault_set(
@@ -144,7 +145,7 @@ static enum percuss_status find_place(struct problem *problem, size_t index, str
     const struct body *a = problem->bodies[contact->a];
     const struct body *b = problem->bodies[contact->b];
     /* a contact is a point: no two planes */
-    double smallest = fmin(body_smallest_radius(a), body_smallest_radius(b));
+    double smallest = smaller(body_smallest_radius(a), body_smallest_radius(b));
     if (!isfinite(smallest))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[%zu]: %s on %s: two planes do not touch in a point", index,
@@ -317,7 +318,7 @@ static enum percuss_status find_compression(struct problem *problem, struct faul
 {
     size_t n = problem->contact_count;
     if (n == 1) {
-        problem->impulse_compression[0] = fmax(0.0, -problem->gap_rate[0] / problem->w[0]);
+        problem->impulse_compression[0] = larger(0.0, -problem->gap_rate[0] / problem->w[0]);
         return PERCUSS_OK;
     }
     enum lcp_outcome outcome =
@@ -336,7 +337,7 @@ static enum percuss_status check_approach(const struct problem *problem, struct 
     double fastest = 0.0;
     bool approaches = false;
     for (size_t i = 0; i < problem->contact_count; i++) {
-        fastest = fmax(fastest, fabs(problem->gap_rate[i]));
+        fastest = larger(fabs(problem->gap_rate[i]), fastest);
         approaches = approaches || problem->gap_rate[i] < 0.0;
     }
     if (!(fastest <= MAX_SPEED))

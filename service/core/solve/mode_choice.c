@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "contact/hertz.h"
 #include "impact/impact_scale.h"
 #include "model/damping.h"
@@ -47,7 +48,7 @@ static size_t find_demands(const struct problem *problem, const struct scene *sc
     size_t count = 0;
     double rate = 0.0;
     for (size_t c = 0; c < scene->contacts; c++)
-        rate = fmin(rate, scene->gap_rate[c]);
+        rate = smaller(scene->gap_rate[c], rate);
     for (size_t r = 0; rate < 0.0 && r < scene->rows; r++) {
         const struct family_load *load = problem_load(problem, r, body, family);
         if (!load)
@@ -134,7 +135,7 @@ static size_t count_of_few(const struct mode_choice *choice, const struct proble
         double damping = damping_from(body, k, end);
         for (; k > enough; k--) {
             if (k <= body->damping_count || body->damping_peak > 0.0)
-                damping = fmax(damping, damping_of(body, k - 1, omega[k - 1]));
+                damping = larger(damping, damping_of(body, k - 1, omega[k - 1]));
             double square = omega[k - 1] * omega[k - 1];
             double with = inertia + row[k - 1] * row[k - 1] / (square * square);
             double viscosity = damping * with * omega[k - 1];

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/extremes.h"
+
 bool outcome_is_complete(const struct impact_outcome *outcome)
 {
     return outcome->end_reason == PERCUSS_END_SEPARATED ||
@@ -42,12 +44,12 @@ double outcome_range(const struct problem *problem, const struct impact_outcome 
     /* from 0 to 1, of which this answer is somewhere */
     if (is_plain_impact(problem, outcome)) {
         double e = outcome_restitution(problem, outcome, 0);
-        return fmax(e, 1.0 - e);
+        return larger(e, 1.0 - e);
     }
     /* from -1 to 1, or to the largest */
     double most = 1.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        most = fmax(most, outcome_restitution(problem, outcome, c));
+        most = larger(outcome_restitution(problem, outcome, c), most);
     return 1.0 + most;
 }
 
@@ -62,7 +64,7 @@ double outcome_peak_force(const struct impact_outcome *outcome, size_t contact)
     const struct track *track = &outcome->tracks[contact];
     double largest = 0.0;
     for (size_t i = 0; i < track_listed(track); i++)
-        largest = fmax(largest, track->list[i].peak_force);
+        largest = larger(track->list[i].peak_force, largest);
     return largest;
 }
 
@@ -71,7 +73,7 @@ double outcome_deepest(const struct impact_outcome *outcome, size_t contact)
     const struct track *track = &outcome->tracks[contact];
     double largest = 0.0;
     for (size_t i = 0; i < track_listed(track); i++)
-        largest = fmax(largest, track->list[i].max_indentation);
+        largest = larger(track->list[i].max_indentation, largest);
     return largest;
 }
 
@@ -144,9 +146,9 @@ struct outcome_difference outcome_compare(const struct problem *problem,
     for (size_t c = 0; c < problem->contact_count; c++) {
         double change = fabs(a->tracks[c].impulse - b->tracks[c].impulse);
         double compression = problem->impulse_compression[c];
-        largest.impulse = fmax(largest.impulse, change);
+        largest.impulse = larger(change, largest.impulse);
         if (compression > 0.0)
-            largest.restitution = fmax(largest.restitution, change / compression);
+            largest.restitution = larger(change / compression, largest.restitution);
     }
     return largest;
 }
@@ -155,7 +157,7 @@ void outcome_widen_impulses(const struct problem *problem, const struct impact_o
                             const struct impact_outcome *b, double *change)
 {
     for (size_t c = 0; c < problem->contact_count; c++)
-        change[c] = fmax(change[c], fabs(a->tracks[c].impulse - b->tracks[c].impulse));
+        change[c] = larger(fabs(a->tracks[c].impulse - b->tracks[c].impulse), change[c]);
 }
 
 static bool is_alike(const struct scene_group *a, const struct scene_group *b)
@@ -236,7 +238,7 @@ void outcome_widen_vibration(const struct problem *problem, const struct impact_
 {
     struct motion ends[2];
     double sum[PERCUSS_MAX_BODIES] = {0.0};
-    double time = fmax(a->window, b->window);
+    double time = larger(a->window, b->window);
     if (!find_motion(a, time, problem->arena, &ends[0]) ||
         !find_motion(b, time, problem->arena, &ends[1]))
         return;
@@ -261,7 +263,7 @@ void outcome_widen_vibration(const struct problem *problem, const struct impact_
                                      (const double *[]){ends[0].v[g], ends[1].v[h]});
     }
     for (size_t g = 0; g < a->groups; g++)
-        energy[a->group[g].body] = fmax(energy[a->group[g].body], sum[a->group[g].body]);
+        energy[a->group[g].body] = larger(sum[a->group[g].body], energy[a->group[g].body]);
 }
 
 double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,
@@ -271,7 +273,7 @@ double outcome_impulse_scale(const struct problem *problem, const struct impact_
     double compressed = 0.0;
     for (size_t i = 0; i < track_listed(track); i++)
         compressed += track->list[i].compression_impulse;
-    return fmax(problem->impulse_compression[contact], compressed);
+    return larger(problem->impulse_compression[contact], compressed);
 }
 
 /* Energy of the rates at which contacts close, J. */
@@ -287,7 +289,7 @@ double outcome_energy_defect(const struct problem *problem, const struct impact_
 {
     double lost = fabs(outcome->energy.closure);
     /* the slowest approach of all has no energy that doubles can hold */
-    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach_energy(problem));
+    return lost == 0.0 ? 0.0 : lost / larger(outcome->energy.available, approach_energy(problem));
 }
 
 /* Of the approach's energy: as closely as any audit must close. */

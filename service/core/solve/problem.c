@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 
@@ -34,7 +35,7 @@ double problem_approach(const struct problem *problem)
 {
     double speed = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        speed = fmax(speed, -problem->gap_rate[c]);
+        speed = larger(-problem->gap_rate[c], speed);
     return speed;
 }
 
@@ -47,8 +48,8 @@ double problem_indentation(const struct problem *problem, size_t c, double speed
 double problem_touching_speed(const struct problem *problem, size_t c)
 {
     const struct solve_contact *contact = &problem->request->contacts[c];
-    const double rate = fmin(0.0, problem->gap_rate[c]);
-    return sqrt(rate * rate - 2.0 * contact->gap_acceleration * fmax(0.0, contact->gap));
+    const double rate = smaller(problem->gap_rate[c], 0.0);
+    return sqrt(rate * rate - 2.0 * contact->gap_acceleration * larger(0.0, contact->gap));
 }
 
 double problem_frequency(const struct problem *problem, size_t c)
@@ -61,7 +62,7 @@ double problem_largest_compression(const struct problem *problem)
 {
     double largest = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        largest = fmax(largest, problem->impulse_compression[c]);
+        largest = larger(problem->impulse_compression[c], largest);
     return largest;
 }
 
@@ -104,7 +105,7 @@ double problem_row_scale(const struct problem *problem, size_t row)
     double largest = 0.0;
     for (size_t r = 0; r < rows; r++)
         if (problem_row_contact(problem, r) == problem_row_contact(problem, row))
-            largest = fmax(largest, problem->row_w[r * (rows + 1)]);
+            largest = larger(largest, problem->row_w[r * (rows + 1)]);
     return largest;
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
 #include "solve/formulation.h"
@@ -35,7 +36,7 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     double restitution[2], tangential[2][2];
     for (int side = 0; side < 2; side++) {
         struct attempt shifted = *best;
-        shifted.accuracy = fmin(best->accuracy, DERIVATIVE_ACCURACY);
+        shifted.accuracy = smaller(best->accuracy, DERIVATIVE_ACCURACY);
         enum percuss_status status =
             attempt_run_scaled(context, &shifted, side == 0 ? 1.0 - SPEED_STEP : 1.0 + SPEED_STEP);
         if (status || attempt_is_spent(&shifted))
@@ -76,12 +77,12 @@ static void solution_widen(const struct attempt_context *context, const struct a
     double distance = neighbours_distance(context->neighbours, context->problem, &best->outcome);
     bool alone = context->neighbours->solutions < 2;
     double error = alone && !unknown ? 0.0 : distance_factor(context, best) * distance;
-    error = fmax(error, unknown ? context->problem->tolerance : 0.0) -
+    error = larger(error, unknown ? context->problem->tolerance : 0.0) -
             solution->error.steps.restitution;
     if (error > modes->restitution) {
         modes->restitution = error;
         modes->impulse =
-            fmax(modes->impulse, error * problem_largest_compression(context->problem));
+            larger(error * problem_largest_compression(context->problem), modes->impulse);
     }
 }
 
@@ -90,7 +91,7 @@ static void solution_bound(double range, double compression, double *restitution
 {
     if (*restitution > range) {
         *restitution = range;
-        *impulse = fmin(*impulse, range * compression);
+        *impulse = smaller(*impulse, range * compression);
     }
 }
 
@@ -136,7 +137,7 @@ static double first_accuracy(const struct problem *problem, bool sequence)
     bool group = problem->contact_count > 1;
     double root = FRICTION_STEPS * problem->tolerance;
     if (problem->friction_count && !group && problem->tolerance > TOLERANCE_AUDITED)
-        return fmin(root * root, MOST_STEPS_SEQUENCE);
+        return smaller(root * root, MOST_STEPS_SEQUENCE);
     return attempt_first_accuracy(problem->tolerance, sequence, group);
 }
 

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "model/beam.h"
 #include "model/rigid.h"
 #include "model/vector.h"
@@ -57,7 +58,7 @@ double validity_wave_loss(const struct problem *problem)
                 energy_share += SPHERE_VIBRATION * (speed / wave_speed(body));
         }
         /* e^2 = 1 - share */
-        worst = fmax(worst, 0.5 * energy_share);
+        worst = larger(0.5 * energy_share, worst);
     }
     return worst;
 }
@@ -317,7 +318,7 @@ static void find_turn(const struct problem *problem, const struct impact_outcome
     for (int which = 0; which < 2; which++) {
         const double *spin =
             problem->request->bodies[problem->sides[c][which].body].angular_velocity;
-        turn = fmax(turn, norm3(spin) * duration);
+        turn = larger(turn, norm3(spin) * duration);
     }
     if (!oblique_of(problem, c) || !(turn > TURN || way > WAY * radius))
         return;
@@ -489,7 +490,7 @@ static void find_delassus(const struct problem *problem, struct warnings *warnin
         size_t a = i / rows, b = i % rows;
         double scale = sqrt(problem_row_scale(problem, a) * problem_row_scale(problem, b));
         double differs = problem->row_w[i] - problem_inverse_mass(problem, a, b);
-        worst = fmax(worst, fabs(differs) / scale);
+        worst = larger(fabs(differs) / scale, worst);
     }
     if (worst > OTHER_BODIES)
         warnings_add(warnings, WARNING_DELASSUS,

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "impact/coupling.h"
 #include "impact/impact_scale.h"
 #include "solve/error/calibration.h"
@@ -28,7 +29,7 @@ double attempt_work_allowed(enum percuss_method method)
 double attempt_horizon(const struct problem *problem, const struct scene *scene)
 {
     double asked = problem->request->options.horizon;
-    return asked > 0.0 ? asked : fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
+    return asked > 0.0 ? asked : larger(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
 }
 
 /* Once, with the attempt's profile. */
@@ -239,7 +240,7 @@ double attempt_first_accuracy(double tolerance, bool sequence, bool group)
     bool fine = tolerance <= TOLERANCE_AUDITED || group || (sequence && followed);
     double share = fine ? FIRST_STEPS_FINE : sequence ? FIRST_STEPS_SEQUENCE : FIRST_STEPS_SINGLE;
     double most = group ? MOST_STEPS_GROUP : sequence ? MOST_STEPS_SEQUENCE : INFINITY;
-    return fmax(fmin(share * tolerance, most), FINEST_STEPS);
+    return larger(smaller(share * tolerance, most), FINEST_STEPS);
 }
 
 /* Effect of omitting mode k, as row r sees it, on the impulse of the row's contact, as a part of

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
 #include "model/beam.h"
@@ -23,9 +24,9 @@ static double wave_speed(const struct body *body)
 /* Longest of the body's dimensions. */
 static double extent(const struct body *body)
 {
-    double longest = fmax(body->length, 2.0 * body->radius);
+    double longest = larger(body->length, 2.0 * body->radius);
     for (int i = 0; i < 3; i++)
-        longest = fmax(longest, body->size[i]);
+        longest = larger(longest, body->size[i]);
     return longest > 0.0 ? longest : cbrt(body->mass / body->material.density);
 }
 
@@ -38,7 +39,7 @@ static double scale_of(const struct body *body)
 /* Half of the longer side of a bar's section: how far waves go within it. */
 static double half_section(const struct body *body)
 {
-    return body->radius > 0.0 ? body->radius : 0.5 * fmax(body->width, body->height);
+    return body->radius > 0.0 ? body->radius : 0.5 * larger(body->width, body->height);
 }
 
 /* A body that vibrates as a rod or beam does; any other one as its mesh says, regular compliance
@@ -57,7 +58,7 @@ static bool without_shear(const struct body *body)
 static double unknown_of_side(const struct body *body, const struct site *site)
 {
     double size = scale_of(body);
-    double end = fmax((0.5 * body->length - fabs(site->point[0])) / size, NEAREST_EDGE);
+    double end = larger((0.5 * body->length - fabs(site->point[0])) / size, NEAREST_EDGE);
     double sum = UNKNOWN_MATCHED + SIDE_END / (end * end);
     if (body->radius > 0.0)
         return sum;
@@ -65,9 +66,9 @@ static double unknown_of_side(const struct body *body, const struct site *site)
     int across = fabs(site->outward[2]) > fabs(site->outward[1]) ? 1 : 2;
     double half = 0.5 * (across == 1 ? body->width : body->height);
     double aside = fabs(site->point[across]) / half;
-    double edge = fmax((half - fabs(site->point[across])) / size, NEAREST_EDGE);
+    double edge = larger((half - fabs(site->point[across])) / size, NEAREST_EDGE);
     double known = (1.0 - BEAM_SIDE_FARTHEST) * half / size;
-    return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * fmax(1.0 / edge - 1.0 / known, 0.0);
+    return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * larger(1.0 / edge - 1.0 / known, 0.0);
 }
 
 /* Missing modes of a broad beam that is hit on its side: it bends across as a plate does. */
@@ -114,7 +115,7 @@ static double near_edge(const struct problem *problem, size_t contact, int which
     if (!spot->on_mesh || !(spot->edge < spot->element))
         return 0.0;
     double young = problem_material(problem, contact, (unsigned)which)->young;
-    return NEAR_MESH_EDGE / (young * fmax(spot->edge, 0.1 * spot->element));
+    return NEAR_MESH_EDGE / (young * larger(spot->edge, 0.1 * spot->element));
 }
 
 /* Of all bodies, or of those that vibrate; of an impact that lasts so long. */
@@ -142,7 +143,7 @@ static double clamps_of(const struct body *body, const struct site *site)
     double half = half_section(body), sum = 0.0;
     for (int end = 0; end < 2; end++) {
         double distance = 0.5 * body->length + (end == 0 ? 1.0 : -1.0) * site->point[0];
-        double ratio = half / fmax(distance, half);
+        double ratio = half / larger(distance, half);
         sum += body->supports[end] == SUPPORT_CLAMPED ? NEAR_CLAMP * ratio * ratio : 0.0;
     }
     return sum;
@@ -176,7 +177,7 @@ static double force_of(const struct problem *problem, size_t contact,
         sum = hypot(sum, PATCH * ratio * ratio);
         sum = hypot(sum, 2.0 * theory_of(body, &side->site, impact->duration));
     }
-    return fmin(sum, 0.5);
+    return smaller(sum, 0.5);
 }
 
 /* Of the law, and of the work of unloading that an unknown compliance stores: C F^2 / 2 of 0.4 F
@@ -258,8 +259,8 @@ struct deviation_along deviation_along(const struct problem *problem,
         double stiffness = friction->ratio[2 * t] * model_impact_stiffness(&blow);
         double unknown =
             unknown_along(problem, friction, t, 0) + unknown_along(problem, friction, t, 1);
-        largest.stiffness = fmax(largest.stiffness, unknown * stiffness);
-        largest.waves = fmax(largest.waves, waves_along(problem, friction, t, stiffness));
+        largest.stiffness = larger(unknown * stiffness, largest.stiffness);
+        largest.waves = larger(waves_along(problem, friction, t, stiffness), largest.waves);
     }
     return largest;
 }
@@ -297,7 +298,7 @@ struct model_impact model_impact_of(const struct problem *problem,
     struct model_impact impact = {.force = outcome_peak_force(outcome, contact),
                                   .indentation = outcome_deepest(outcome, contact)};
     for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        impact.duration = fmax(impact.duration, track->list[i].end - track->list[i].start);
+        impact.duration = larger(track->list[i].end - track->list[i].start, impact.duration);
     if (contact_model_yielded(problem, outcome, contact))
         impact.history = outcome->laws[contact].history;
     return impact;
@@ -335,7 +336,7 @@ struct model_impact model_impact_fastest(const struct problem *problem, size_t c
 /* The work of the approach, taken up by the contact's law from the beginning. */
 struct model_impact model_impact_expected(const struct problem *problem, size_t contact)
 {
-    double speed = fmax(-problem->gap_rate[contact], 0.0);
+    double speed = larger(-problem->gap_rate[contact], 0.0);
     double work = 0.5 * speed * speed / problem->w[contact * (problem->contact_count + 1)];
     struct model_impact impact = elastic_impact(problem, contact, speed);
     double depth = impact.indentation;
@@ -395,7 +396,7 @@ static bool plate_of(const struct body *body, const struct site *site, struct pl
 static double along_it(const struct body *body, double reduced, double duration)
 {
     double ratio = extent(body) / (wave_speed(body) * duration);
-    return 8.0 * fmin(reduced / body->mass, 1.0) * pow(ratio, 4.0);
+    return 8.0 * smaller(reduced / body->mass, 1.0) * pow(ratio, 4.0);
 }
 
 double deviation_of_rigid(const struct problem *problem, size_t contact, int which,
@@ -406,7 +407,7 @@ double deviation_of_rigid(const struct problem *problem, size_t contact, int whi
     struct plate plate;
     if (body_is_flexible(body) || !isfinite(body->mass) || !(impact->duration > 0.0))
         return 0.0;
-    double along = fmin(along_it(body, reduced, impact->duration), 1.0);
+    double along = smaller(along_it(body, reduced, impact->duration), 1.0);
     double bent = plate_of(body, &problem->sides[contact][which].site, &plate)
                       ? MEAN_TO_MOST * plate_share(&plate, reduced, impact->duration)
                       : 0.0;
@@ -435,7 +436,7 @@ static double of_bar(const struct body *body, const struct site *site, double du
     bool on_end = site->face == SITE_END;
     double way = (on_end ? 2.0 : 2.2 * 2.0) * half_section(body);
     double ratio = way / (wave_speed(body) * duration);
-    return fmin(on_end ? ratio * ratio : pow(ratio, 4.0), 1.0);
+    return smaller(on_end ? ratio * ratio : pow(ratio, 4.0), 1.0);
 }
 
 /* Share of int F'^2 dt of a Hertz contact beyond a frequency, times its duration. The spectrum has
@@ -443,7 +444,7 @@ static double of_bar(const struct body *body, const struct site *site, double du
 static double faster_than(double angle)
 {
     double slow = exp(-pow(angle / 5.84, 2.7)), tail = 3.0 / (angle * angle);
-    return fmin(fmax(slow, tail), 1.0);
+    return smaller(larger(slow, tail), 1.0);
 }
 
 /* The modes of a block or mesh have the waves up to where they end. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "contact/family.h"
 #include "contact/hertz.h"
 #include "contact/law_closed_form.h"
@@ -58,7 +59,7 @@ static double against_family(const struct contact_law *law, const struct contact
  * 0.75 of it. */
 static double by_closed_form(double depth, double hardening, double share)
 {
-    double way = log(fmax(depth, 1.0));
+    double way = log(larger(depth, 1.0));
     return expm1(0.031 * pow(way, 1.8) * (1.0 + 4.0 * pow(hardening, 0.65)) * exp(-0.9 * share));
 }
 
@@ -121,7 +122,7 @@ static double by_roundness(const struct problem *problem, size_t contact, double
     for (int i = 0; i < 2; i++) {
         double w = contact_radius * roundness(&sides[i].site);
         if (i == choice->side || both)
-            pressure = fmax(pressure, lost_pressure(m[i], w));
+            pressure = larger(lost_pressure(m[i], w), pressure);
         stored += lost_storage(m[i], compliance_share(m, i), w);
     }
     return pressure + stored;
@@ -146,7 +147,7 @@ static double by_table(const struct contact_choice *choice, double depth)
 {
     double beyond = depth / contact_law_table_range(&choice->plastic);
     double error = beyond > 1.0 ? LAW_BEYOND * log10(beyond) : 0.0;
-    error += LAW_DEEP * log10(fmax(depth / (30.0 * choice->yield), 1.0));
+    error += LAW_DEEP * log10(larger(depth / (30.0 * choice->yield), 1.0));
     if (!choice->family)
         return error + LAW_OWN_TABLE + contact_curves_error(choice->plastic.table);
     return error + LAW_FAMILY + LAW_OUTSIDE * choice->outside + (choice->both ? LAW_FAMILY : 0.0);
@@ -207,7 +208,7 @@ const char *law_error_reason(const struct problem *problem, const struct impact_
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
     double parts[LAW_ERROR_COUNT];
     find_parts(problem, outcome, contact, parts);
-    if (parts[LAW_ERROR_RATE] > fmax(parts[LAW_ERROR_SIZE], parts[LAW_ERROR_LAW]))
+    if (parts[LAW_ERROR_RATE] > larger(parts[LAW_ERROR_SIZE], parts[LAW_ERROR_LAW]))
         return "the rate of strain, and with it the yield stress, is known roughly";
     if (parts[LAW_ERROR_SIZE] > parts[LAW_ERROR_LAW])
         return "the dent is too large for small strains";
@@ -223,14 +224,14 @@ double law_error_yield(const struct contact_law *law, double depth, double share
     const double step = 0.05;
     const double most = 3.0;
     double slope = log(rebound_with(law, depth, 1.0 + step)) / log1p(step);
-    return slope > 0.0 ? fmin(exp(share / slope), most) : most;
+    return slope > 0.0 ? smaller(exp(share / slope), most) : most;
 }
 
 double law_error_worst(const struct problem *problem, const struct impact_outcome *outcome)
 {
     double worst = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        worst = fmax(worst, law_error(problem, outcome, c));
+        worst = larger(law_error(problem, outcome, c), worst);
     return worst;
 }
 
@@ -293,7 +294,8 @@ double unstated_holds_above(const struct problem *problem, size_t contact, doubl
     double pressure = hertz_peak_pressure(&problem->hertz[contact], force);
     for (int which = 0; which < 2; which++)
         if (!is_unstated(problem, contact, which))
-            pressure = fmin(pressure, CONTACT_FAMILY_HARD_ENOUGH * bears(problem, contact, which));
+            pressure =
+                smaller(pressure, CONTACT_FAMILY_HARD_ENOUGH * bears(problem, contact, which));
     return pressure / HERTZ_FIRST_YIELD;
 }
 
@@ -306,9 +308,9 @@ double unstated_change(const struct problem *problem, size_t contact,
     double now = INFINITY, then = INFINITY;
     for (int which = 0; which < 2; which++) {
         double pressure = bears(problem, contact, which);
-        then = fmin(then, pressure);
+        then = smaller(then, pressure);
         if (!is_unstated(problem, contact, which))
-            now = fmin(now, pressure);
+            now = smaller(now, pressure);
     }
     /* energies over those of yield; that of Hertz's law goes by the fifth power of the pressure */
     double peak = hertz_peak_pressure(&problem->hertz[contact], impact->force);
@@ -320,9 +322,10 @@ double unstated_change(const struct problem *problem, size_t contact,
     double back = given_back(problem, contact, then, after);
     if (flowed)
         back /= given_back(problem, contact, now, before);
-    double share = fmax(1.0 - back, 0.0);
-    return fmin(share * impact->rebound + fmin(share / OTHER_SUB_IMPACTS, 1.0) * impact->later,
-                impact->range);
+    double share = larger(1.0 - back, 0.0);
+    return smaller(share * impact->rebound +
+                       smaller(share / OTHER_SUB_IMPACTS, 1.0) * impact->later,
+                   impact->range);
 }
 
 double unstated_worst(const struct problem *problem, const struct impact_outcome *outcome)
@@ -332,7 +335,7 @@ double unstated_worst(const struct problem *problem, const struct impact_outcome
         if (!unstated_any(problem, c))
             continue;
         struct unstated_impact impact = unstated_impact_of(problem, outcome, c);
-        worst = fmax(worst, unstated_change(problem, c, &impact));
+        worst = larger(unstated_change(problem, c, &impact), worst);
     }
     return worst;
 }
@@ -348,7 +351,7 @@ void unstated_explain(const struct problem *problem, const struct impact_outcome
     double above = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         if (unstated_any(problem, c))
-            above = fmax(above, unstated_holds_above(problem, c, outcome_peak_force(outcome, c)));
+            above = larger(unstated_holds_above(problem, c, outcome_peak_force(outcome, c)), above);
     if (!(above > 0.0))
         return;
     text_add(text, "; holds for metals that yield above ");
@@ -377,7 +380,7 @@ static const struct material *add_names(const struct problem *problem, size_t co
         text_add(text, problem_body(problem, contact, which)->id);
         text_add(text, ")");
         softest = pressure < lowest ? material : softest;
-        lowest = fmin(lowest, pressure);
+        lowest = smaller(lowest, pressure);
     }
     return softest;
 }
@@ -433,9 +436,9 @@ static bool has_loss(const struct problem *problem, size_t contact)
  * 1 - loss, deviation (1 - e^2)/(2 e). */
 static double own_loss_deviation(const struct own_law *own, double rebound)
 {
-    double e = fmin(fabs(rebound), 1.0), lost = own->deviation * (1.0 - e * e);
+    double e = smaller(fabs(rebound), 1.0), lost = own->deviation * (1.0 - e * e);
     bool loses = own->hysteresis > 0.0 || own->dissipation > 0.0 || own->unloading.count > 0;
-    return loses ? fmin(0.5 * lost / e, sqrt(lost)) : 0.0;
+    return loses ? smaller(0.5 * lost / e, sqrt(lost)) : 0.0;
 }
 
 double loss_deviation(const struct problem *problem, size_t contact, double rebound)
@@ -472,7 +475,7 @@ double loss_worst(const struct problem *problem, const struct impact_outcome *ou
 {
     double worst = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
-        worst = fmax(worst, loss_of_contact(problem, c, outcome_rebound(problem, outcome, c)));
+        worst = larger(loss_of_contact(problem, c, outcome_rebound(problem, outcome, c)), worst);
     return worst;
 }
 

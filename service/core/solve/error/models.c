@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "contact/plastic.h"
 #include "impact/sensitivity_group.h"
 #include "solve/askew.h"
@@ -102,10 +103,10 @@ static enum percuss_status solve_perturbed(struct perturbed *perturbed, const st
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return PERCUSS_OK;
     /* no more than a few times the answer's own effort, where that is of the same kind */
-    allowed = by_finite_elements(perturbed->margin->problem) ? left : fmin(left, allowed);
+    allowed = by_finite_elements(perturbed->margin->problem) ? left : smaller(left, allowed);
     bool modal = perturbed->margin->problem->request->options.method == PERCUSS_METHOD_MODAL;
     double longest = scene->contacts > 1 ? PERTURBED_STEPS_GROUP : PERTURBED_STEPS;
-    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? longest : 0.0),
+    *attempt = (struct attempt){.accuracy = larger(solution->step_accuracy, modal ? longest : 0.0),
                                 .assembly = solution->assembly,
                                 .profile = STEP_PROFILE_ROUGH};
     perturbed->context.work = allowed;
@@ -115,7 +116,7 @@ static enum percuss_status solve_perturbed(struct perturbed *perturbed, const st
         return status;
     const struct problem *problem = perturbed->margin->problem;
     distance->restitution =
-        fmax(before, outcome_compare(problem, perturbed->answer, &attempt->outcome).restitution);
+        larger(outcome_compare(problem, perturbed->answer, &attempt->outcome).restitution, before);
     outcome_widen_impulses(problem, perturbed->answer, &attempt->outcome, distance->impulse);
     return PERCUSS_OK;
 }
@@ -142,10 +143,10 @@ static void widen(const struct problem *problem, const struct distance *spring,
                   const struct distance *flow, double *restitution, double *impulse)
 {
     double both = hypot(spring->restitution, flow->restitution);
-    *restitution = fmax(*restitution, BETWEEN * both);
+    *restitution = larger(BETWEEN * both, *restitution);
     for (size_t c = 0; c < problem->contact_count; c++) {
         double change = isinf(both) ? INFINITY : hypot(spring->impulse[c], flow->impulse[c]);
-        impulse[c] = fmax(impulse[c], BETWEEN * change);
+        impulse[c] = larger(BETWEEN * change, impulse[c]);
     }
 }
 
@@ -204,7 +205,7 @@ static double sensitivity(const struct model_margin *margin)
     /* what the contact itself loses hardly depends on its stiffness */
     double relaxed = margin->solution->outcome.relaxed;
     double share = (energy->vibration + energy->damping - relaxed) / energy->available;
-    share = fmin(fmax(share, 0.0), 1.0); /* NAN: nothing was available */
+    share = smaller(larger(share, 0.0), 1.0); /* NAN: nothing was available */
     return LOST * share + SWUNG * sqrt(share);
 }
 
@@ -247,7 +248,7 @@ static double by_waves(const struct model_margin *margin, size_t c)
         deviation_waves(problem, margin->solution->assembly, outcome, c, &margin->impact[c]);
     if (!(compression > 0.0) || lost == 0.0)
         return 0.0;
-    double rebound = fmax(fabs(outcome_restitution(problem, outcome, c)), LEAST_REBOUND);
+    double rebound = larger(fabs(outcome_restitution(problem, outcome, c)), LEAST_REBOUND);
     double w = problem->w[c * (problem->contact_count + 1)];
     return lost / (rebound * compression * compression * w);
 }
@@ -284,7 +285,7 @@ static void single(const struct model_margin *margin, struct model_error *error)
     error->restitution = 0.0;
     for (size_t c = 0; c < margin->problem->contact_count; c++) {
         double change = of_contact(margin, c);
-        error->restitution = fmax(error->restitution, change);
+        error->restitution = larger(change, error->restitution);
         error->impulse[c] = (change + waves) * outcome_impulse_scale(margin->problem, outcome, c);
     }
     error->restitution += waves;
@@ -332,7 +333,7 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
         double change = fmax(fabs(tangent[0].impulse[c]), fabs(tangent[1].impulse[c]));
         orders->impulse[c] = change;
         if (compression > 0.0)
-            orders->first = fmax(orders->first, change / compression);
+            orders->first = larger(change / compression, orders->first);
     }
     return PERCUSS_OK;
 }
@@ -421,10 +422,10 @@ static enum percuss_status amplify(const struct model_margin *margin, struct pac
         return status;
     if (!isfinite(change))
         return find_perturbed(margin, pace, &error->restitution, error->impulse);
-    error->restitution = fmax(error->restitution, BETWEEN * change);
+    error->restitution = larger(BETWEEN * change, error->restitution);
     for (size_t c = 0; margin->problem->contact_count > 1 && c < margin->problem->contact_count;
          c++)
-        error->impulse[c] = fmax(error->impulse[c], BETWEEN * orders.impulse[c]);
+        error->impulse[c] = larger(BETWEEN * orders.impulse[c], error->impulse[c]);
     return PERCUSS_OK;
 }
 
@@ -450,9 +451,9 @@ static double friction_accuracy(const struct model_margin *margin)
     for (size_t i = 0; i < problem->friction_count; i++) {
         const struct contact_friction *of = &problem->friction[i];
         if (of->deviation > 0.0)
-            root = fmin(root, PERTURBED_FRICTION * of->deviation / of->coefficient);
+            root = smaller(root, PERTURBED_FRICTION * of->deviation / of->coefficient);
     }
-    return fmax(root * root, margin->solution->step_accuracy);
+    return larger(root * root, margin->solution->step_accuracy);
 }
 
 /* Solves roughly with all coefficients so many deviations larger. */
@@ -469,7 +470,7 @@ static enum percuss_status solve_coefficients(const struct model_margin *margin,
         const struct contact_friction *of = &problem->friction[i];
         friction[i] = scene.friction[i];
         friction[i].coefficient =
-            fmax(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
+            larger(of->coefficient + sign * of->deviation, LEAST_COEFFICIENT * of->coefficient);
     }
     scene.friction = friction;
     *attempt = (struct attempt){.accuracy = friction_accuracy(margin),
@@ -486,7 +487,7 @@ static void widen_by_friction(const struct problem *problem, const struct impact
 {
     for (size_t i = 0; i < problem->friction_count; i++) {
         size_t c = problem->friction[i].contact;
-        tangential[c] = fmax(tangential[c], outcome_tangential_change(answer, other, c));
+        tangential[c] = larger(outcome_tangential_change(answer, other, c), tangential[c]);
     }
     outcome_widen_impulses(problem, answer, other, impulse);
 }
@@ -531,7 +532,7 @@ static enum percuss_status by_friction(const struct model_margin *margin, struct
     for (size_t c = 0; c < problem->contact_count; c++) {
         error->impulse[c] = hypot(error->impulse[c], impulse[c]);
         if (problem->impulse_compression[c] > 0.0)
-            error->friction = fmax(error->friction, impulse[c] / problem->impulse_compression[c]);
+            error->friction = larger(impulse[c] / problem->impulse_compression[c], error->friction);
     }
     return PERCUSS_OK;
 }
@@ -566,8 +567,8 @@ enum percuss_status models_find_error(const struct problem *problem,
     double loss = loss_worst(problem, &solution->outcome);
     double yield = unstated_worst(problem, &solution->outcome);
     double range = outcome_range(problem, &solution->outcome);
-    double elastic = fmin(error->restitution + loss, range);
-    error->restitution = fmin(error->restitution + loss + yield, range);
+    double elastic = smaller(error->restitution + loss, range);
+    error->restitution = smaller(error->restitution + loss + yield, range);
     error->yield = error->restitution - elastic;
     for (size_t c = 0; c < n; c++)
         error->impulse[c] += (loss + yield) * outcome_impulse_scale(problem, &solution->outcome, c);

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "impact/sensitivity.h"
 #include "solve/assemble.h"
 #include "solve/error/calibration.h"
@@ -31,8 +32,8 @@ struct comparison {
 
 static void widen_modes(struct mode_error *error, double factor, struct outcome_difference change)
 {
-    error->restitution = fmax(error->restitution, factor * change.restitution);
-    error->impulse = fmax(error->impulse, factor * change.impulse);
+    error->restitution = larger(factor * change.restitution, error->restitution);
+    error->impulse = larger(factor * change.impulse, error->impulse);
 }
 
 static bool is_unchecked(const struct comparison *comparison)
@@ -88,9 +89,9 @@ static enum percuss_status find_unfixed(struct comparison *comparison)
     if (!fixed || problem->request->options.method == PERCUSS_METHOD_CVODE)
         return PERCUSS_OK;
     double most = problem->contact_count > 1 ? MOST_MODES_GROUP : MOST_MODES_SEQUENCE;
-    double allowed = fmin(comparison->slow.restitution / FEWER_MODES, most);
+    double allowed = smaller(comparison->slow.restitution / FEWER_MODES, most);
     unfixed->choice.unfixed = true;
-    unfixed->choice.allowed = fmax(unfixed->choice.allowed, allowed);
+    unfixed->choice.allowed = larger(unfixed->choice.allowed, allowed);
     enum percuss_status status = attempt_assemble(comparison->context, unfixed);
     comparison->fixed =
         !status && !assembly_same_modes(unfixed->assembly, comparison->best->assembly);
@@ -135,7 +136,7 @@ static void find_vibration(struct attempt_context *context, const struct attempt
     double *vibration = context->neighbours->vibration;
     for (size_t b = 0; b < context->problem->body_count; b++)
         vibration[b] =
-            fmax(vibration[b], more * more * sensitivity_vibration(best->path, tangent, b));
+            larger(more * more * sensitivity_vibration(best->path, tangent, b), vibration[b]);
 }
 
 /* Decides unless it amplifies too much, or steps alone spend the tolerance. */
@@ -152,12 +153,12 @@ static enum percuss_status by_first_order(struct comparison *comparison)
     double change = tangent.largest / compression;
     double tolerance = context->problem->tolerance;
     error->strained = tangent.strain / slow;
-    if (!(tangent.strain <= STRAIN_MODES) || change > STRONG * fmax(slow, NEGLIGIBLE * tolerance))
+    if (!(tangent.strain <= STRAIN_MODES) || change > STRONG * larger(slow, NEGLIGIBLE * tolerance))
         return PERCUSS_OK;
     /* the steps' part of one impact is amplified alike */
     double modes = FACTOR_FIRST_ORDER * change;
     double left = attempt_steps_leave(comparison->best->accuracy);
-    double steps = fmax(left * fmax(1.0, change / slow), STRAY);
+    double steps = larger(left * larger(change / slow, 1.0), STRAY);
     double allowed = SHARE_BOTH * tolerance;
     double both = hypot(modes, steps); /* they are independent */
     if (modes <= allowed && both > allowed)
@@ -209,8 +210,9 @@ static enum percuss_status by_model_and_steps(struct comparison *comparison)
     const struct outcome_difference change =
         outcome_compare(problem, &best->outcome, &comparison->both.outcome);
     double slow = comparison->slow.restitution;
-    comparison->is_long = attempt_is_long(best) ||
-                          change.restitution > STRONG * fmax(slow, NEGLIGIBLE * problem->tolerance);
+    comparison->is_long =
+        attempt_is_long(best) ||
+        change.restitution > STRONG * larger(slow, NEGLIGIBLE * problem->tolerance);
     comparison->is_struck = is_struck_by_others(problem, best);
     comparison->slow.strained = error->strained = change.restitution / slow;
     widen_modes(error, FACTOR_COMPARED, change);
@@ -275,7 +277,7 @@ static enum percuss_status by_steps(struct comparison *comparison)
     /* whichever is further from its share */
     double allowed = SHARE_STEPS * context->problem->tolerance;
     double modes = SHARE_STEPS / SHARE_MODES * error->restitution;
-    if (steps > fmax(allowed, modes))
+    if (steps > larger(allowed, modes))
         error->verdict = MODES_BELOW_STEPS;
     comparison->decided =
         error->verdict == MODES_BELOW_STEPS || !fits_share(comparison, SHARE_MODES);
@@ -384,10 +386,10 @@ static struct outcome_difference slow_effect(const struct attempt_context *conte
         /* a contact at rest in a group is struck through its neighbours */
         double approach = compression * problem->w[c * (problem->contact_count + 1)];
         if (compression > 0.0)
-            impulse += lost / (fmax(e, LEAST_REBOUND) * approach);
-        largest.impulse = fmax(largest.impulse, impulse);
+            impulse += lost / (larger(e, LEAST_REBOUND) * approach);
+        largest.impulse = larger(impulse, largest.impulse);
         if (compression > 0.0)
-            largest.restitution = fmax(largest.restitution, impulse / compression);
+            largest.restitution = larger(impulse / compression, largest.restitution);
     }
     return largest;
 }
@@ -429,10 +431,10 @@ bool refinement_expects_sequence(const struct problem *problem)
 static double first_allowed(const struct attempt_context *context, bool sequence)
 {
     if (!sequence)
-        return fmin(FIRST_MODES_SINGLE * context->problem->tolerance, MOST_MODES_SINGLE);
+        return smaller(FIRST_MODES_SINGLE * context->problem->tolerance, MOST_MODES_SINGLE);
     bool group = context->problem->contact_count > 1;
-    return fmin(FIRST_MODES_SEQUENCE * context->problem->tolerance,
-                group ? MOST_MODES_GROUP : MOST_MODES_SEQUENCE);
+    return smaller(FIRST_MODES_SEQUENCE * context->problem->tolerance,
+                   group ? MOST_MODES_GROUP : MOST_MODES_SEQUENCE);
 }
 
 /* Whether another attempt can be better, and is affordable. */
@@ -458,9 +460,9 @@ static void improve(const struct attempt_context *context, const struct mode_err
 {
     double factor = AIM * context->problem->tolerance / error->restitution;
     if (error->verdict == MODES_BELOW_STEPS)
-        next->accuracy = fmax(next->accuracy / LONGER_STEPS, FINEST_STEPS);
+        next->accuracy = larger(next->accuracy / LONGER_STEPS, FINEST_STEPS);
     else
-        next->choice.allowed *= fmin(factor, AIM);
+        next->choice.allowed *= smaller(factor, AIM);
 }
 
 static bool modes_suffice(const struct attempt_context *context, const struct mode_error *error)
@@ -523,14 +525,14 @@ static double error_of_steps(const struct attempt_context *context, const struct
 {
     double e = best->outcome.plastic > 0.0 ? 0.0 : LEAST_REBOUND;
     for (size_t c = 0; c < context->problem->contact_count; c++)
-        e = fmax(e, fabs(outcome_restitution(context->problem, &best->outcome, c)));
+        e = larger(fabs(outcome_restitution(context->problem, &best->outcome, c)), e);
     double defect = outcome_energy_defect(context->problem, &best->outcome);
     if (context->problem->friction_count)
-        defect = fmax(0.0, defect - FRICTION_BOOKS * sqrt(best->accuracy));
+        defect = larger(defect - FRICTION_BOOKS * sqrt(best->accuracy), 0.0);
     defect *= DEFECT_FACTOR;
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
-    return fmax(change, attempt_steps_leave(best->accuracy));
+    return larger(change, attempt_steps_leave(best->accuracy));
 }
 
 static struct step_error estimate_alone(const struct attempt_context *context,
@@ -571,8 +573,8 @@ static enum percuss_status compare_steps(struct attempt_context *context,
         *error = (struct step_error){.restitution = change.restitution, .impulse = change.impulse};
         return PERCUSS_OK;
     }
-    error->restitution = fmax(error->restitution, FACTOR_COMPARED * change.restitution);
-    error->impulse = fmax(error->impulse, FACTOR_COMPARED * change.impulse);
+    error->restitution = larger(FACTOR_COMPARED * change.restitution, error->restitution);
+    error->impulse = larger(FACTOR_COMPARED * change.impulse, error->impulse);
     return PERCUSS_OK;
 }
 
@@ -596,9 +598,9 @@ static enum percuss_status shorten(struct attempt_context *context, struct attem
 {
     struct attempt finer = *best;
     double allowed = attempt_work_allowed(context->problem->request->options.method);
-    finer.accuracy = fmax(best->accuracy / LONGER_STEPS, FINEST_STEPS);
+    finer.accuracy = larger(best->accuracy / LONGER_STEPS, FINEST_STEPS);
     if (!keeps_energy)
-        context->work = fmax(context->work, LAST_WORK * allowed);
+        context->work = larger(context->work, LAST_WORK * allowed);
     enum percuss_status status = best->log
                                      ? attempt_run_logged(context, &finer, &best->assembly->scene)
                                      : attempt_run(context, &finer, &best->assembly->scene);
@@ -614,7 +616,7 @@ enum percuss_status refine_steps(struct attempt_context *context, struct attempt
     double tolerance = context->problem->tolerance;
     double closure_allowed = tolerance <= TOLERANCE_AUDITED
                                  ? 0.1 * TOLERANCE_AUDITED
-                                 : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
+                                 : smaller(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
     const struct attempt *coarse = modes->longer;
     struct attempt before;
     for (int i = 0;; i++) {

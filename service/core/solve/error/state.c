@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "solve/error/attempt.h"
 #include "solve/error/calibration.h"
 
@@ -65,7 +66,7 @@ static double left_out(const struct problem *problem, const struct solution *sol
     double acts = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         if (group->participation[c])
-            acts = fmax(acts, fabs(group->participation[c][k]));
+            acts = larger(fabs(group->participation[c][k]), acts);
     double decayed =
         exp(-group->set->damping[k] * omega * problem->request->bodies[group->body].elapsed);
     return decayed * acts * state->abruptness / (omega * omega * sqrt(omega));
@@ -84,7 +85,7 @@ static bool deviate(const struct problem *problem, const struct solution *soluti
         return false;
     for (size_t k = 0; k < group->count; k++) {
         double omega = group->set->omega[k];
-        double own = fmin(share * fmax(1.0, omega / usual), 1.0);
+        double own = smaller(share * larger(omega / usual, 1.0), 1.0);
         double grown = 1.0 + own * sign_of(start, index, k, 0);
         double turned = own * sign_of(start, index, k, 1);
         double more = model ? 0.0 : left_out(problem, solution, index, k);
@@ -130,7 +131,7 @@ static enum percuss_status solve_starts(struct attempt_context *context,
             return PERCUSS_INTERNAL;
         /* each takes a part of the rest of the effort */
         double left = context->work;
-        context->work = fmin(left, effort);
+        context->work = smaller(left, effort);
         double allowed = context->work;
         enum percuss_status status = attempt_run(context, &attempt, &scene);
         context->work += left - allowed;
@@ -140,9 +141,9 @@ static enum percuss_status solve_starts(struct attempt_context *context,
             *farthest = INFINITY;
             continue;
         }
-        *farthest = fmax(
-            *farthest,
-            outcome_compare(context->problem, &solution->outcome, &attempt.outcome).restitution);
+        *farthest = larger(
+            outcome_compare(context->problem, &solution->outcome, &attempt.outcome).restitution,
+            *farthest);
         outcome_widen_vibration(context->problem, &solution->outcome, &attempt.outcome, vibration);
     }
     return PERCUSS_OK;
@@ -172,8 +173,8 @@ enum percuss_status state_find_error(const struct problem *problem, const struct
     if (farthest[0] == 0.0 && farthest[1] == 0.0)
         return PERCUSS_OK;
     double range = outcome_range(problem, &solution->outcome);
-    error->restitution = fmin(FACTOR_COMPARED * farthest[0], range);
-    error->model = fmin(FACTOR_COMPARED * farthest[1], range);
+    error->restitution = smaller(FACTOR_COMPARED * farthest[0], range);
+    error->model = smaller(FACTOR_COMPARED * farthest[1], range);
     return PERCUSS_OK;
 }
 
@@ -196,7 +197,7 @@ static double energy_before(const struct scene *scene, size_t body)
  * differ, in energy: sub-impacts trade impulse where its sum hardly changes. */
 static double share_after(double share, double before, double impact, double differs, double after)
 {
-    double changed = fmax(impact * (sqrt(before) + sqrt(after)), sqrt(differs));
+    double changed = larger(impact * (sqrt(before) + sqrt(after)), sqrt(differs));
     double wrong = sqrt((share * share * before + changed * changed) / after);
     return !(after > 0.0) ? 0.0 : wrong < 1.0 ? wrong : 1.0;
 }
@@ -244,8 +245,8 @@ void state_error_after(const struct problem *problem, const struct solution *sol
 {
     double before = energy_before(solution->scene, body);
     double after = solution->outcome.vibration[body];
-    double differs =
-        fmax(solution->neighbours->vibration[body], solution->error.states.vibration[false][body]);
+    double differs = larger(solution->neighbours->vibration[body],
+                            solution->error.states.vibration[false][body]);
     state->unknown =
         share_after(share_of(problem, body, false), before, shares->numerical, differs, after);
     state->abruptness = abruptness_after(problem, solution, body);

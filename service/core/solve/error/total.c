@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/extremes.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/error/attempt.h"
@@ -68,7 +69,7 @@ static double largest_share(const struct problem *problem, const struct solution
         double scale = outcome_impulse_scale(problem, &solution->outcome, c);
         double distance = neighbours_impulse_distance(solution->neighbours, &solution->outcome, c);
         if (scale > 0.0)
-            largest = fmax(largest, distance / scale);
+            largest = larger(distance / scale, largest);
     }
     return largest;
 }
@@ -79,9 +80,9 @@ static double numerical(const struct problem *problem, const struct solution *so
 {
     double scale = outcome_impulse_scale(problem, &solution->outcome, c);
     double distance = neighbours_impulse_distance(solution->neighbours, &solution->outcome, c);
-    double error = solution->farther * fmax(distance, AGREED * largest * scale);
+    double error = solution->farther * larger(AGREED * largest * scale, distance);
     double steps = attempt_steps_leave(solution->step_accuracy);
-    return fmax(error, steps * scale) + solution->error.states.restitution * scale;
+    return larger(error, steps * scale) + solution->error.states.restitution * scale;
 }
 
 /* How much more a tangential force moves the surfaces than a normal one: 7/2 of a ball. So much
@@ -91,8 +92,8 @@ static double along_over_normal(const struct problem *problem, size_t friction)
     size_t rows = problem_rows(problem), contact = problem->friction[friction].contact;
     size_t first = problem->contact_count + 2 * friction;
     const double *w = problem->row_w;
-    double along = fmax(w[first * (rows + 1)], w[(first + 1) * (rows + 1)]);
-    return fmax(1.0, along / w[contact * (rows + 1)]);
+    double along = larger(w[first * (rows + 1)], w[(first + 1) * (rows + 1)]);
+    return larger(1.0, along / w[contact * (rows + 1)]);
 }
 
 /* Of Coulomb's limit, what modes left out do to plain friction that does not slide throughout. */
@@ -115,7 +116,7 @@ static double plain_restitution(const struct problem *problem, const struct solu
         size_t c = friction->contact, tangent = problem->contact_count + 2 * i;
         const double *w = problem->row_w + c * rows;
         double share = friction->coefficient * hypot(w[tangent], w[tangent + 1]) / w[c];
-        largest = fmax(largest, plain_leaves(solution, &result->contacts[c]) * share);
+        largest = larger(plain_leaves(solution, &result->contacts[c]) * share, largest);
     }
     return largest;
 }
@@ -141,11 +142,11 @@ static void report_tangential(const struct problem *problem, const struct soluti
         struct deviation_along along = deviation_along(problem, friction);
         models += (along.stiffness + along.waves) * limit;
         contact->impulse_tangential_error_model = models;
-        double sum = normal + fmax(cells, solution->neighbours->tangential[c]) +
+        double sum = normal + larger(solution->neighbours->tangential[c], cells) +
                      plain_leaves(solution, contact) * limit + models;
         /* from one end of Coulomb's range to the other */
         contact->impulse_tangential_error =
-            fmin(sum, 2.0 * friction->coefficient * (contact->impulse + contact->impulse_error));
+            smaller(sum, 2.0 * friction->coefficient * (contact->impulse + contact->impulse_error));
     }
 }
 
@@ -161,17 +162,17 @@ static void report_impulses(const struct problem *problem, const struct solution
     double most = 0.0;
     bool alone = problem->contact_count == 1;
     for (size_t c = 0; c < problem->contact_count; c++)
-        most = fmax(most, 2.0 * outcome_impulse_scale(problem, &solution->outcome, c));
+        most = larger(2.0 * outcome_impulse_scale(problem, &solution->outcome, c), most);
     for (size_t c = 0; c < problem->contact_count; c++) {
         struct solve_contact_result *contact = &result->contacts[c];
         double scale = outcome_impulse_scale(problem, &solution->outcome, c);
         double solved = alone ? result->impulse_time + result->impulse_modes
                               : numerical(problem, solution, c, largest);
         /* from none to a full rebound of the hardest impact */
-        double range = fmax(contact->impulse, most - contact->impulse);
+        double range = larger(contact->impulse, most - contact->impulse);
         contact->impulse_error_model =
-            fmin(error->models.impulse[c] + error->states.model * scale, range);
-        contact->impulse_error = fmin(contact->impulse_error_model + solved, range);
+            smaller(error->models.impulse[c] + error->states.model * scale, range);
+        contact->impulse_error = smaller(contact->impulse_error_model + solved, range);
     }
 }
 
@@ -180,8 +181,9 @@ static void report_total(double model, double yield, double range, struct solve_
 {
     double numerical = result->restitution_time + result->restitution_modes;
     result->restitution_model = model;
-    result->restitution_total = fmin(numerical + model, range);
-    result->restitution_yield = result->restitution_total - fmin(numerical + model - yield, range);
+    result->restitution_total = smaller(numerical + model, range);
+    result->restitution_yield =
+        result->restitution_total - smaller(numerical + model - yield, range);
     result->total_met = result->tolerance_met && result->restitution_total <= result->tolerance;
 }
 
@@ -205,7 +207,7 @@ static void report_numerical(const struct problem *problem, const struct solutio
     result->impulse_modes = error->modes.impulse;
     if (start > 0.0) {
         result->restitution_modes =
-            fmin(result->restitution_modes + start, outcome_range(problem, &solution->outcome));
+            smaller(result->restitution_modes + start, outcome_range(problem, &solution->outcome));
         result->impulse_modes += start * problem_largest_compression(problem);
     }
     /* an answer cut off by its effort was compared with no other */
