@@ -24,12 +24,14 @@ int bar_round_faces(const struct body *body, double tip_radius, const double p[3
     double half = 0.5 * body->length;
     for (int end = 0; end < 2; end++) {
         double sign = end == 0 ? -1.0 : 1.0;
-        faces[end] = isfinite(tip_radius) ? face_ball(sign * (half - tip_radius), tip_radius, p)
-                                          : face_plane(0, sign, half, p);
+        if (isfinite(tip_radius))
+            face_ball(sign * (half - tip_radius), tip_radius, p, &faces[end]);
+        else
+            face_plane(0, sign, half, p, &faces[end]);
         faces[end].kind = SITE_END;
         faces[end].beyond = sign * p[0] > 0.0 ? hypot(p[1], p[2]) - body->radius : INFINITY;
     }
-    faces[2] = face_bar_side(body->radius, half, p);
+    face_bar_side(body->radius, half, p, &faces[2]);
     return 3;
 }
 

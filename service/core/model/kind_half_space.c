@@ -25,7 +25,7 @@ static double half_space_smallest_radius(const struct body *body)
 static int half_space_faces(const struct body *body, const double p[3], struct face *faces)
 {
     (void)body;
-    faces[0] = face_plane(2, 1.0, 0.0, p);
+    face_plane(2, 1.0, 0.0, p, &faces[0]);
     return 1;
 }
 

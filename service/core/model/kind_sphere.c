@@ -32,7 +32,7 @@ static double sphere_smallest_radius(const struct body *body)
 
 static int sphere_faces(const struct body *body, const double p[3], struct face *faces)
 {
-    faces[0] = face_ball(0.0, body->radius, p);
+    face_ball(0.0, body->radius, p, &faces[0]);
     return 1;
 }
 

@@ -11,7 +11,11 @@
 void site_load_find(const struct body *body, const struct site *site, const double direction[3],
                     bool tangential, struct site_load *load)
 {
-    *load = (struct site_load){0};
+    /* a family that the kind does not have does not act; the first is cleared of any kind */
+    size_t count = body->kind->family_count > 0 ? body->kind->family_count : 1;
+    memset(load->family, 0, count * sizeof *load->family);
+    for (size_t f = count; f < BODY_MOST_FAMILIES; f++)
+        load->family[f].acts = false;
     if (body->kind->load)
         body->kind->load(body, site, direction, tangential, load);
 }

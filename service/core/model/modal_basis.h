@@ -37,7 +37,9 @@ struct family_load {
 };
 
 struct site_load {
-    struct family_load family[BODY_MOST_FAMILIES];
+    struct family_load family[BODY_MOST_FAMILIES]; /* of the first, and of those that the
+                                                      body's kind has, all is defined, of others
+                                                      that they do not act */
 };
 
 /* The load of a unit force along `direction` (body frame) at a site: the surface's normal, or for

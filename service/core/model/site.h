@@ -49,13 +49,13 @@ struct face {
  * a ball. */
 
 /* The plane `offset` from the origin, normal to the axis 0, 1, 2, with a sign. */
-struct face face_plane(int axis, double sign, double offset, const double p[3]);
+void face_plane(int axis, double sign, double offset, const double p[3], struct face *face);
 
 /* Sphere of a radius about (x, 0, 0). */
-struct face face_ball(double x, double radius, const double p[3]);
+void face_ball(double x, double radius, const double p[3], struct face *face);
 
 /* Lateral surface of a round bar along x. */
-struct face face_bar_side(double radius, double half_length, const double p[3]);
+void face_bar_side(double radius, double half_length, const double p[3], struct face *face);
 
 /* The six faces of a box about the origin; their number. */
 int face_box(const double half[3], const double p[3], struct face *faces);
