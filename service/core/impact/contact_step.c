@@ -47,9 +47,9 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
 {
     size_t n = scene->rows;
     double slide = scene->plain ? PLAIN_LEFT * accuracy : SLIDE_LEFT * sqrt(accuracy);
-    *step = (struct contact_step){.arena = arena,
-                                  .last_change = node_solver_last_change(accuracy),
-                                  .last_slide = larger(slide, FINEST_SLIDE)};
+    step->arena = arena;
+    step->last_change = node_solver_last_change(accuracy);
+    step->last_slide = larger(slide, FINEST_SLIDE);
     /* consecutive arrays of one type */
     step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
     step->target = arena_take(arena, 2 * n, sizeof *step->target);

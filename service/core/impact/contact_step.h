@@ -46,8 +46,8 @@ struct contact_step {
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): none */
 };
 
-/* Memory for a scene from the arena. `accuracy`: relative, of the forces; 0: to rounding. False:
- * out of memory. */
+/* Memory of an empty step, all zero, for a scene from the arena. `accuracy`: relative, of the
+ * forces; 0: to rounding. False: out of memory. */
 bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
                          struct arena *arena);
 

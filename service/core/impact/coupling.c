@@ -44,7 +44,7 @@ bool coupling_create(struct coupling *coupling, const struct scene *scene, struc
 {
     size_t n = scene->rows;
     size_t longest = 0;
-    *coupling = (struct coupling){.by_modes = n > COUPLING_FEW};
+    coupling->by_modes = n > COUPLING_FEW;
     coupling->first = arena_reserve(arena, n + 1, sizeof *coupling->first);
     coupling->pairs = arena_reserve(arena, n * n, sizeof *coupling->pairs);
     if (!coupling->first || !coupling->pairs)

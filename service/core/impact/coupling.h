@@ -36,7 +36,7 @@ struct coupling {
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
 
-/* False: out of memory. */
+/* Of an empty one, all zero. False: out of memory. */
 bool coupling_create(struct coupling *coupling, const struct scene *scene, struct arena *arena);
 
 /* The tables and blocks of a level. OK, INTERNAL without memory, TIMEOUT where the pace stopped it.

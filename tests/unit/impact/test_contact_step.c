@@ -98,7 +98,7 @@ static void start_values(const struct toy *toy, struct motion *motion,
 static double difference(struct toy *toy, double damping, int level, int count, double *loss)
 {
     struct contact_start start[2];
-    struct contact_step step;
+    struct contact_step step = {0};
     struct motion motion;
     double y[STATE];
     assert_true(contact_step_create(&step, &toy->scene, 0.0, &toy->arena));
@@ -174,7 +174,7 @@ static void a_mass_on_a_spring(void **state)
 {
     (void)state;
     struct toy toy;
-    struct contact_step step;
+    struct contact_step step = {0};
     struct motion motion;
     toy_init(&toy, 1);
     toy.laws[0] = contact_law_linear(9.0); /* omega = 3 with w = 1 */

@@ -41,7 +41,7 @@ static void make(struct toy *toy, size_t contacts, double damping)
 
 static struct coupling prepared(struct toy *toy, int level)
 {
-    struct coupling coupling;
+    struct coupling coupling = {0};
     assert_true(coupling_create(&coupling, &toy->scene, &toy->arena));
     assert_int_equal(coupling_prepare(&coupling, &toy->scene, level, &toy->arena, NULL),
                      PERCUSS_OK);

@@ -29,7 +29,7 @@ static void the_solution_fulfils_the_equations(void **state)
     (void)state;
     struct toy toy;
     struct arena arena = {0};
-    struct coupling coupling;
+    struct coupling coupling = {0};
     struct node_linear linear = {.count = 2, .contact = {0, 2}};
     double stiffness[CONTACTS][NODES] = {{0.5, 1.0, 1.5, 2.0}, {0}, {0.0, 0.1, 0.4, 0.9}};
     make(&toy, &coupling, &arena, 0.7);
@@ -61,7 +61,7 @@ static void what_has_no_solution_is_refused(void **state)
     (void)state;
     struct toy toy;
     struct arena arena = {0};
-    struct coupling coupling;
+    struct coupling coupling = {0};
     struct node_linear linear = {.count = 1, .contact = {1}};
     double stiffness[CONTACTS][NODES] = {{0}, {1.0, 1.0, 1.0, 1.0}, {0}};
     make(&toy, &coupling, &arena, -1.0);

@@ -29,6 +29,7 @@ static struct node_problem make(struct made *made, size_t contacts, double betwe
     double shapes[3 * TOY_CONTACTS];
     struct toy *toy = &made->toy;
     toy_init(toy, contacts);
+    made->coupling = (struct coupling){0};
     for (size_t c = 0; c < contacts; c++) {
         toy->laws[c] = contact_law_hertz(3.0 + (double)c);
         toy->residual[c * (contacts + 1)] = 0.02;
