@@ -289,13 +289,17 @@ static bool assembly_create(struct assembly *assembly, const struct problem *pro
     assembly->groups = arena_take(problem->arena, groups, sizeof *assembly->groups);
     assembly->sources = arena_take(problem->arena, groups, sizeof(struct prepared_group *));
     assembly->families = arena_take(problem->arena, groups, sizeof *assembly->families);
+    assembly->modes = arena_take(problem->arena, 2 * problem->body_count, sizeof(size_t));
     /* either side of a row, every family */
     size_t rows = problem_rows(problem);
     assembly->parts =
         arena_take(problem->arena, 2 * BODY_MOST_FAMILIES * rows, sizeof *assembly->parts);
     assembly->omitted = arena_take(problem->arena, rows, sizeof *assembly->omitted);
-    return assembly->groups && assembly->sources && assembly->families && assembly->parts &&
-           assembly->omitted;
+    if (!assembly->groups || !assembly->sources || !assembly->families || !assembly->modes ||
+        !assembly->parts || !assembly->omitted)
+        return false;
+    assembly->offered = assembly->modes + problem->body_count;
+    return true;
 }
 
 bool assemble(struct assembly *assembly, const struct problem *problem,

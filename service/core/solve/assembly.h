@@ -31,15 +31,15 @@ struct assembly {
     size_t *families;                      /* of each group; BODY_MOST_FAMILIES: a half-space's */
     struct omitted_part *parts;
     size_t part_count;
-    struct omitted *omitted;            /* [row] */
-    size_t modes[PERCUSS_MAX_BODIES];   /* taking part, by body */
-    size_t offered[PERCUSS_MAX_BODIES]; /* with those of their groups that hardly would */
-    size_t all_modes;                   /* taking part, of all bodies */
-    bool adjustable;                    /* the choice decided about some of them */
-    bool capped;                        /* a family wants more modes than are allowed */
-    double highest;                     /* of the frequencies that take part, rad/s */
-    double lowest_omitted;              /* rad/s; INFINITY: no more modes to be had */
-    double radiated_error;              /* in e, by the waves that radiation.h omits */
+    struct omitted *omitted; /* [row] */
+    size_t *modes;           /* [body], taking part */
+    size_t *offered;         /* [body], with those of their groups that hardly would */
+    size_t all_modes;        /* taking part, of all bodies */
+    bool adjustable;         /* the choice decided about some of them */
+    bool capped;             /* a family wants more modes than are allowed */
+    double highest;          /* of the frequencies that take part, rad/s */
+    double lowest_omitted;   /* rad/s; INFINITY: no more modes to be had */
+    double radiated_error;   /* in e, by the waves that radiation.h omits */
 };
 
 #endif

@@ -40,19 +40,19 @@ struct step_error {
 
 /* Of the models (models.h). */
 struct model_error {
-    double restitution;                   /* of the contact where it is largest */
-    double yield;                         /* the part of metals of unstated yield */
-    double impulse[PERCUSS_MAX_CONTACTS]; /* of each contact, N s; INFINITY: unknown */
-    double friction;                      /* by the coefficients' deviations: part of restitution */
-    double tangential[PERCUSS_MAX_CONTACTS]; /* and by them alone, N s along the surface */
+    double restitution; /* of the contact where it is largest */
+    double yield;       /* the part of metals of unstated yield */
+    double *impulse;    /* [contact], N s; INFINITY: unknown */
+    double friction;    /* by the coefficients' deviations: part of restitution */
+    double *tangential; /* [contact], and by them alone, N s along the surface */
 };
 
 /* Of the states that the bodies began from (state.h). */
 struct state_error {
     double restitution; /* by the errors of modes and steps of the answers before */
     double model;       /* and by their models' */
-    /* J, effect of either on the vibration of a body by the forces that it changes */
-    double vibration[2][PERCUSS_MAX_BODIES];
+    /* [body], J, effect of either on its vibration by the forces that it changes; NULL: none */
+    double *vibration[2];
 };
 
 struct error_budget {

@@ -549,8 +549,10 @@ enum percuss_status models_find_error(const struct problem *problem,
         .impact = arena_take(problem->arena, n, sizeof *margin.impact),
         .deviation = arena_take(problem->arena, n, sizeof *margin.deviation),
     };
-    if (!margin.impact || !margin.deviation)
+    error->impulse = arena_take(problem->arena, 2 * n, sizeof *error->impulse);
+    if (!margin.impact || !margin.deviation || !error->impulse)
         return PERCUSS_INTERNAL;
+    error->tangential = error->impulse + n;
     for (size_t c = 0; c < n; c++) {
         margin.impact[c] = model_impact_of(problem, &solution->outcome, c);
         margin.deviation[c] = deviation_of(problem, c, &margin.impact[c]);

@@ -149,6 +149,14 @@ static enum percuss_status solve_starts(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
+static bool any_share(const struct problem *problem, bool model)
+{
+    for (size_t b = 0; b < problem->body_count; b++)
+        if (share_of(problem, b, model) > 0.0)
+            return true;
+    return false;
+}
+
 enum percuss_status state_find_error(const struct problem *problem, const struct solution *solution,
                                      struct pace *pace, struct state_error *error)
 {
@@ -159,14 +167,14 @@ enum percuss_status state_find_error(const struct problem *problem, const struct
     if (solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return PERCUSS_OK;
     for (int model = 0; model < 2; model++) {
-        double largest = 0.0;
-        for (size_t b = 0; b < problem->body_count; b++)
-            if (share_of(problem, b, model) > largest)
-                largest = share_of(problem, b, model);
+        if (!any_share(problem, model))
+            continue;
+        error->vibration[model] =
+            arena_take(problem->arena, problem->body_count, sizeof *error->vibration[model]);
+        if (!error->vibration[model])
+            return PERCUSS_INTERNAL;
         enum percuss_status status =
-            largest > 0.0
-                ? solve_starts(&context, solution, model, &farthest[model], error->vibration[model])
-                : PERCUSS_OK;
+            solve_starts(&context, solution, model, &farthest[model], error->vibration[model]);
         if (status)
             return status;
     }
@@ -240,13 +248,18 @@ static size_t known_after(const struct problem *problem, const struct solution *
     return known;
 }
 
+static double changed_by(const struct state_error *error, bool model, size_t body)
+{
+    return error->vibration[model] ? error->vibration[model][body] : 0.0;
+}
+
 void state_error_after(const struct problem *problem, const struct solution *solution,
                        const struct state_shares *shares, size_t body, struct body_state *state)
 {
     double before = energy_before(solution->scene, body);
     double after = solution->outcome.vibration[body];
     double differs = larger(solution->neighbours->vibration[body],
-                            solution->error.states.vibration[false][body]);
+                            changed_by(&solution->error.states, false, body));
     state->unknown =
         share_after(share_of(problem, body, false), before, shares->numerical, differs, after);
     state->abruptness = abruptness_after(problem, solution, body);
@@ -258,5 +271,5 @@ void state_error_after(const struct problem *problem, const struct solution *sol
     if (axes->sine != 0.0)
         planes[0] = planes[1] = planes[0] < planes[1] ? planes[0] : planes[1];
     state->unknown_model = share_after(share_of(problem, body, true), before, shares->model,
-                                       solution->error.states.vibration[true][body], after);
+                                       changed_by(&solution->error.states, true, body), after);
 }
