@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "fe/indentation.h"
-#include "store/json_numbers.h"
+#include "store/json_lists.h"
 #include "store/table_key.h"
 
 /* In the file's order; the first three are the axes. */
@@ -128,14 +128,14 @@ static size_t expected_count(const struct lists *lists, size_t list)
     }
 }
 
-static enum percuss_status family_read_lists(const json_t *root, struct lists *lists,
-                                             struct fault *fault)
+static enum percuss_status family_read_lists(const json_t *root, struct json_lists *long_ones,
+                                             struct lists *lists, struct fault *fault)
 {
     enum percuss_status status = family_read_head(root, lists, fault);
     for (size_t i = 0; i < LISTS && !status; i++) {
         lists->count[i] = expected_count(lists, i);
-        status = json_numbers_take_array(json_object_get(root, names[i]), names[i],
-                                         &lists->count[i], &lists->values[i], fault);
+        status =
+            json_lists_take(long_ones, root, names[i], &lists->count[i], &lists->values[i], fault);
         if (!status && i < CONTACT_FAMILY_AXES && lists->count[i] > CONTACT_FAMILY_MOST)
             status = fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %zu places: must be at most %d",
                                names[i], lists->count[i], CONTACT_FAMILY_MOST);
@@ -154,13 +154,14 @@ static void family_content_key(const struct lists *lists, char key[TABLE_KEY_SIZ
 static char *family_text(json_t *object)
 {
     struct lists lists = {0};
+    struct json_lists none = {0};
     struct fault fault;
     char key[TABLE_KEY_SIZE];
     char *text = json_numbers_text(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
     json_t *again = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     text = NULL;
-    if (again && family_read_lists(again, &lists, &fault) == PERCUSS_OK) {
+    if (again && family_read_lists(again, &none, &lists, &fault) == PERCUSS_OK) {
         family_content_key(&lists, key);
         json_object_set_new(object, "content", json_string(key));
         text = json_numbers_text(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
@@ -187,12 +188,13 @@ enum percuss_status family_file_save(const char *folder,
     return status;
 }
 
-static struct contact_family *family_of(const json_t *root, struct fault *fault)
+static struct contact_family *family_of(const json_t *root, struct json_lists *long_ones,
+                                        struct fault *fault)
 {
     struct lists lists = {0};
     struct contact_family *family = NULL;
     char key[TABLE_KEY_SIZE];
-    enum percuss_status status = family_read_lists(root, &lists, fault);
+    enum percuss_status status = family_read_lists(root, long_ones, &lists, fault);
     if (!status) {
         family_content_key(&lists, key);
         status = json_numbers_check_hash(root, "content", key, fault);
@@ -213,9 +215,12 @@ struct contact_family *family_file_load(const char *path, struct fault *fault)
     if (table_file_read(path, &text, &size, fault))
         return NULL;
     struct contact_family *family = NULL;
+    struct json_lists lists;
     json_t *root;
-    if (!json_numbers_parse(text, size, &root, &reason))
-        family = family_of(root, &reason);
+    text[size] = '\0';
+    if (!json_lists_parse(text, size, &lists, &root, &reason))
+        family = family_of(root, &lists, &reason);
+    json_lists_free(&lists);
     free(text);
     json_decref(root);
     if (!family)

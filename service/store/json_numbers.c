@@ -55,18 +55,26 @@ enum percuss_status json_numbers_take_whole(const json_t *value, const char *nam
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: must be a whole number, not negative", name);
 }
 
-enum percuss_status json_numbers_take_array(const json_t *array, const char *name, size_t *count,
-                                            double **values, struct fault *fault)
+enum percuss_status json_numbers_check_count(size_t size, const char *name, size_t *count,
+                                             struct fault *fault)
 {
-    size_t size = json_array_size(array);
     if (size == 0 || size > MOST_VALUES || (*count && size != *count))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %zu values: must be %s", name, size,
                          *count ? "as many as those beside it" : "1 to 1000000");
     *count = size;
+    return PERCUSS_OK;
+}
+
+enum percuss_status json_numbers_take_array(const json_t *array, const char *name, size_t *count,
+                                            double **values, struct fault *fault)
+{
+    size_t size = json_array_size(array);
+    enum percuss_status status = json_numbers_check_count(size, name, count, fault);
+    if (status)
+        return status;
     *values = calloc(size, sizeof **values);
     if (!*values)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; i < size && !status; i++)
         status = json_numbers_take(json_array_get(array, i), name, &(*values)[i], fault);
     return status;

@@ -26,6 +26,10 @@ enum percuss_status json_numbers_take(const json_t *value, const char *name, dou
 enum percuss_status json_numbers_take_whole(const json_t *value, const char *name, size_t *number,
                                             struct fault *fault);
 
+/* Whether a list may have that size; it becomes `*count`, and must be that if that is not 0. */
+enum percuss_status json_numbers_check_count(size_t size, const char *name, size_t *count,
+                                             struct fault *fault);
+
 /* An array of finite numbers for free(), of `*count` if that is not 0. */
 enum percuss_status json_numbers_take_array(const json_t *array, const char *name, size_t *count,
                                             double **values, struct fault *fault);
