@@ -451,6 +451,7 @@ static void convert_term(const percuss_v1_RelaxationTerm *from, struct percuss_r
 static void convert_losses(const percuss_v1_MaterialLosses *from, struct percuss_body *to)
 {
     to->loss_factor = from->loss_factor;
+    to->loss_frequency = from->loss_frequency;
     to->rate_reference = from->rate_reference;
     to->rate_exponent = from->rate_exponent;
     to->rate_coefficient = from->rate_coefficient;
@@ -466,6 +467,7 @@ void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *bo
         .tip_radius = wire->tip_radius,
         .supports = {wire->supports[0], wire->supports[1]},
         .loss_factor = NAN,
+        .loss_frequency = NAN,
         .rate_reference = NAN,
         .rate_exponent = NAN,
         .rate_coefficient = NAN,

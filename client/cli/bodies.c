@@ -45,7 +45,10 @@ static void print_csv(const struct percuss_body_list *list, bool units)
         csv_head(stdout, percuss_parameter_name(p), units);
     }
     fputs(",description,", stdout);
-    csv_head(stdout, "loss_factor,relaxation,rate_reference,rate_exponent,rate_coefficient", units);
+    csv_head(stdout,
+             "loss_factor,loss_frequency,relaxation,rate_reference,rate_exponent,"
+             "rate_coefficient",
+             units);
     putchar('\n');
     for (size_t i = 0; i < list->count; i++) {
         const struct percuss_body *body = &list->bodies[i];
@@ -61,7 +64,7 @@ static void print_csv(const struct percuss_body_list *list, bool units)
             printf(",%.17g", p == PERCUSS_PARAMETER_RADIUS ? body->radius : body->parameters[p]);
         putchar(',');
         csv_text(stdout, body->description);
-        printf(",%.17g,", body->loss_factor);
+        printf(",%.17g,%.17g,", body->loss_factor, body->loss_frequency);
         print_relaxation(body);
         printf(",%.17g,%.17g,%.17g\n", body->rate_reference, body->rate_exponent,
                body->rate_coefficient);

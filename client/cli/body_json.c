@@ -85,6 +85,7 @@ json_t *body_to_json(const struct percuss_body *body)
     object = with(object, "products", numbers(body->products, 3));
     object = with(object, "sites", sites(body));
     object = with(object, "loss_factor", json_number(body->loss_factor));
+    object = with(object, "loss_frequency", json_number(body->loss_frequency));
     object = with(object, "relaxation", relaxation(body));
     object = with(object, "rate_reference", json_number(body->rate_reference));
     object = with(object, "rate_exponent", json_number(body->rate_exponent));

@@ -56,6 +56,7 @@ static const struct {
     {"density", "kg/m^3"},
     {"yield", "Pa"},
     {"tangent", "Pa"},
+    {"loss_frequency", "Hz"},
     {"rate_reference", "1/s"},
     {"dissipation", "s/m"},
     {"max_force", "N"},

@@ -329,6 +329,7 @@ static json_t *body_schema(void)
         VALUES("products", "number", "kg m^2, elements yz, zx, xy"),
         LIST("sites", "of a mesh", site_schema),
         VALUE("loss_factor", "number", "of its material; null: not stated"),
+        VALUE("loss_frequency", "number", "Hz, at which that was measured; null: not stated"),
         LIST("relaxation", "of its material: a Prony series", relaxation_schema),
         VALUE("rate_reference", "number", "1/s; null: its yield is that of any rate of strain"),
         VALUE("rate_exponent", "number", "of Cowper and Symonds; null: by the coefficient"),

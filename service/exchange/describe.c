@@ -130,6 +130,7 @@ static void describe_losses(struct describer *describer, const struct body *body
         .rate_reference = yield_rate_is_stated(rate) ? rate->reference : NAN,
         .rate_exponent = rate->exponent > 0.0 ? rate->exponent : NAN,
         .rate_coefficient = rate->coefficient > 0.0 ? rate->coefficient : NAN,
+        .loss_frequency = body->loss_frequency > 0.0 ? body->loss_frequency : NAN,
     };
     for (size_t i = 0; i < body->relaxation.count; i++)
         describer->terms[i] =
@@ -171,7 +172,10 @@ void describe_body(struct describer *describer, const struct body *body, percuss
     snprintf(wire->shape, sizeof wire->shape, "%s", body->kind->name);
     snprintf(wire->material, sizeof wire->material, "%s", body->material.name);
     body->kind->describe(body, &description);
-    if (body->loss_factor > 0.0)
+    if (body->loss_factor > 0.0 && body->loss_frequency > 0.0)
+        describe_add(&description, "loss factor %g at %g Hz", body->loss_factor,
+                     body->loss_frequency);
+    else if (body->loss_factor > 0.0)
         describe_add(&description, "loss factor %g", body->loss_factor);
     if (body->relaxation.count > 0)
         describe_add(&description, "modulus relaxes to %.3g of young, by %zu of its times",

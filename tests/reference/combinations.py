@@ -18,7 +18,7 @@ BESIDE_YIELD = (
     "rate: {reference: 40, exponent: 5, coefficient: 0.01}",
     "tangent: 1e9, rate: {reference: 40, exponent: 5}",
 )
-LOSS = ("loss_factor: 0.1", "relaxation: [{share: 0.2, time: 1 ms}]")
+LOSS = ("loss_factor: 0.1", "loss_frequency: 2 kHz", "relaxation: [{share: 0.2, time: 1 ms}]")
 
 
 def subsets(keys, most):
@@ -40,7 +40,7 @@ def main():
     (folder / "release.csv").write_text("2e-3,40\n1.5e-3,15\n0.5e-3,0\n")
     cases = [((), law) for law in subsets(LAW, 3)]
     cases += [(material, None) for material in itertools.product(YIELD, BESIDE_YIELD)]
-    cases += [(material, None) for material in subsets(LOSS, 2)]
+    cases += [(material, None) for material in subsets(LOSS, 3)]
     for number, (material, law) in enumerate(cases):
         write(folder, number, material, law)
 

@@ -43,6 +43,7 @@ struct percuss_body {
     /* What the catalogue states of its material beside the parameters. NAN and no terms: nothing,
      * or the server's version does not say. */
     double loss_factor;
+    double loss_frequency; /* Hz, at which that was measured */
     size_t relaxation_count;
     struct percuss_relaxation_term relaxation[PERCUSS_MAX_RELAXATION];
     double rate_reference;   /* 1/s, of the yield stress by the rate of strain */

@@ -38,6 +38,7 @@ class Body(ctypes.Structure):
         ("site_count", c_size_t),
         ("sites", Site * MAX_SITES),
         ("loss_factor", c_double),
+        ("loss_frequency", c_double),
         ("relaxation_count", c_size_t),
         ("relaxation", RelaxationTerm * MAX_RELAXATION),
         ("rate_reference", c_double),

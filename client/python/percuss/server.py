@@ -115,6 +115,8 @@ class Body:
     """Places with names: mesh."""
     loss_factor: float = np.nan
     """Of its material; nan: not stated, or an older server."""
+    loss_frequency: float = np.nan
+    """Hz, at which that was measured; nan: not stated."""
     relaxation: tuple[RelaxationTerm, ...] = ()
     """Of its material: a Prony series."""
     rate_reference: float = np.nan
@@ -234,6 +236,7 @@ def write_body(body: Body) -> _server_abi.Body:
         len(body.sites),
         tuple((site.name.encode(), tuple(site.point.tolist()), tuple(site.normal.tolist())) for site in body.sites),
         body.loss_factor,
+        body.loss_frequency,
         len(body.relaxation),
         tuple((term.share, term.time) for term in body.relaxation),
         body.rate_reference,

@@ -50,7 +50,9 @@ class Local(unittest.TestCase):
                 "materials:\n"
                 "  steel: {young: 210e9, poisson: 0.3, density: 7800, yield: 5e8, rate: {reference: 40, exponent: 5}}\n"
                 "  foam: {young: 1e7, poisson: 0.3, density: 100, relaxation: [{share: 0.2, time: 1 ms}]}\n"
-                "bodies: {ball: {shape: sphere, material: steel, radius: 0.01}, pad: {shape: half-space, material: foam}}\n"
+                "  gum: {young: 1e7, poisson: 0.49, density: 1000, loss_factor: 0.2, loss_frequency: 2 kHz}\n"
+                "bodies: {ball: {shape: sphere, material: steel, radius: 0.01}, pad: {shape: half-space, material: foam},\n"
+                "         mat: {shape: half-space, material: gum}}\n"
                 "friction: [{between: [steel, steel], coefficient: 0.2, deviation: 0.05}]\n"
                 "laws: {buffer: {between: [steel, foam], stiffness: 2e6, hysteresis: 0.36}}\n"
             )
@@ -62,6 +64,7 @@ class Local(unittest.TestCase):
         self.assertEqual((foam.law.stiffness, foam.law.exponent, foam.law.hysteresis), (2e6, 1.5, 0.36))
         self.assertEqual((steel.friction, steel.friction_deviation, steel.law), (0.2, 0.05, None))
         self.assertEqual(bodies["pad"].relaxation, (percuss.RelaxationTerm(0.2, 1e-3),))
+        self.assertEqual((bodies["mat"].loss_factor, bodies["mat"].loss_frequency), (0.2, 2000.0))
         self.assertEqual((bodies["ball"].rate_reference, bodies["ball"].rate_exponent), (40.0, 5.0))
         percuss.contact_pair(bodies["ball"], bodies["pad"], 0.3)
 

@@ -499,6 +499,7 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
     if (position < materials->names.count) {
         body->material = materials->list[position].material;
         body->loss_factor = materials->list[position].loss_factor;
+        body->loss_frequency = materials->list[position].loss_frequency;
         body->relaxation = materials->list[position].relaxation;
         body->yield_rate = materials->list[position].yield_rate;
         body->yield_unstated = materials->list[position].yield_unstated;

@@ -290,7 +290,8 @@ static enum percuss_status check_company(struct reader *reader, struct entry ent
     if (!reader_quantity(value, key->limit->quantity, &number) || number == 0.0)
         return PERCUSS_OK;
     reader_enter(reader, key->name);
-    return reader_refuse(reader, value, "%.9g: must be 0 or absent without %s", number, key->needs);
+    return reader_refuse(reader, value, "%.9g: must be %sabsent without %s", number,
+                         limit_holds(key->limit, 0.0) ? "0 or " : "", key->needs);
 }
 
 /* Whether the mapping has the keys that the table requires, and none beside another that is apart.
@@ -480,6 +481,11 @@ static const struct key material_keys[] = {
               "energy that a cycle of strain loses over 2 pi of what it stores, tan delta: 0.02 to "
               "0.1 of hard plastics, 0.05 to 1 of rubber; 0: a soft material that is meant to lose "
               "nothing")},
+    {"loss_frequency", KEY_NUMBER, &limit_loss_frequency, false,
+     KEY_OF(stated_material, loss_frequency), .needs = "loss_factor",
+     KEY_SAYS("that of the impact",
+              "at which the loss_factor was measured: an answer's error grows with the distance of "
+              "its contact's from it")},
     {"relaxation", KEY_LIST, .allowed = "a list of 1 to 8 mappings of share, time",
      .apart = {"loss_factor"},
      KEY_SAYS(

@@ -15,6 +15,7 @@
 struct stated_material {
     struct material material;
     double loss_factor;           /* as struct body's */
+    double loss_frequency;        /* the same */
     struct relaxation relaxation; /* the same */
     struct yield_rate yield_rate; /* the same */
     bool yield_unstated;          /* the same */

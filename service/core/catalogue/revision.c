@@ -104,6 +104,10 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_text(hash, "loss_factor");
         hash_double(hash, body->loss_factor);
     }
+    if (body->loss_frequency > 0.0) {
+        hash_text(hash, "loss_frequency");
+        hash_double(hash, body->loss_frequency);
+    }
     if (body->relaxation.count > 0) {
         hash_text(hash, "relaxation");
         hash_number(hash, body->relaxation.count);

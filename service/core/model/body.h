@@ -60,6 +60,7 @@ struct body {
     double damping;           /* modal damping ratio, [0, 1); of several the largest */
     double loss_factor; /* of its material: loss of a cycle over 2 pi times its stored energy; NAN:
                            not stated */
+    double loss_frequency;        /* at which that was measured, Hz; 0: not stated */
     struct relaxation relaxation; /* of its material, in place of a loss factor */
     double relaxed_from; /* the instantaneous modulus (Pa), where `young` is the storage modulus of
                             an impact's frequency (solve/relaxed.h); 0: `young` is it */

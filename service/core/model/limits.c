@@ -26,6 +26,8 @@ const struct limit limit_tangent = {
 const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_loss_factor = {
     0.0, 2.0, false, true, "a ratio >= 0 and < 2", QUANTITY_NUMBER};
+const struct limit limit_loss_frequency = {
+    1e-12, 1e12, false, false, "a finite frequency > 0 Hz (1e-12 to 1e12 Hz)", QUANTITY_FREQUENCY};
 const struct limit limit_share = {0.0, 1.0, true, true, "a share > 0 and < 1", QUANTITY_NUMBER};
 const struct limit limit_time = {
     1e-12, 1e12, false, false, "a finite time > 0 s (1e-12 to 1e12 s)", QUANTITY_TIME};

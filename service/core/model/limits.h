@@ -20,22 +20,23 @@ struct limit {
     enum quantity quantity;
 };
 
-extern const struct limit limit_length;        /* m */
-extern const struct limit limit_diameter;      /* m */
-extern const struct limit limit_young;         /* Pa */
-extern const struct limit limit_poisson;       /* so that bulk and shear moduli are positive */
-extern const struct limit limit_density;       /* kg/m^3 */
-extern const struct limit limit_yield;         /* Pa */
-extern const struct limit limit_tangent;       /* Pa */
-extern const struct limit limit_damping;       /* ratio; 1 would no longer oscillate */
-extern const struct limit limit_loss_factor;   /* ratio; half of it damps a mode */
-extern const struct limit limit_share;         /* of a modulus that relaxes */
-extern const struct limit limit_time;          /* s, in which it does */
-extern const struct limit limit_shear_factor;  /* of a Timoshenko beam */
-extern const struct limit limit_scale;         /* of a mesh's size */
-extern const struct limit limit_friction;      /* Coulomb's coefficient */
-extern const struct limit limit_deviation;     /* of such a coefficient */
-extern const struct limit limit_law_stiffness; /* of a power law: N/m^exponent */
+extern const struct limit limit_length;         /* m */
+extern const struct limit limit_diameter;       /* m */
+extern const struct limit limit_young;          /* Pa */
+extern const struct limit limit_poisson;        /* so that bulk and shear moduli are positive */
+extern const struct limit limit_density;        /* kg/m^3 */
+extern const struct limit limit_yield;          /* Pa */
+extern const struct limit limit_tangent;        /* Pa */
+extern const struct limit limit_damping;        /* ratio; 1 would no longer oscillate */
+extern const struct limit limit_loss_factor;    /* ratio; half of it damps a mode */
+extern const struct limit limit_loss_frequency; /* Hz */
+extern const struct limit limit_share;          /* of a modulus that relaxes */
+extern const struct limit limit_time;           /* s, in which it does */
+extern const struct limit limit_shear_factor;   /* of a Timoshenko beam */
+extern const struct limit limit_scale;          /* of a mesh's size */
+extern const struct limit limit_friction;       /* Coulomb's coefficient */
+extern const struct limit limit_deviation;      /* of such a coefficient */
+extern const struct limit limit_law_stiffness;  /* of a power law: N/m^exponent */
 extern const struct limit limit_law_exponent;
 extern const struct limit limit_hysteresis;    /* share of the work */
 extern const struct limit limit_dissipation;   /* s/m */

@@ -132,7 +132,8 @@ static void losses_damp(void **state)
     struct body_set *set = parse_good(
         "materials:\n"
         "  m: {young: 70e9, poisson: 0.3, density: 2700}\n"
-        "  nylon: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0.06}\n"
+        "  nylon: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0.06, loss_frequency: 2 "
+        "kHz}\n"
         "  ideal: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0}\n"
         "bodies:\n"
         "  rod: {shape: rod, material: nylon, radius: 0.01, length: 1}\n"
@@ -143,6 +144,7 @@ static void losses_damp(void **state)
         "  metal: {shape: rod, material: m, radius: 0.01, length: 1}\n");
     is_read_as(get(set, "rod")->damping, 0.03);
     is_read_as(get(set, "rod")->loss_factor, 0.06);
+    is_read_as(get(set, "rod")->loss_frequency, 2e3);
     is_read_as(get(set, "beam")->damping, 0.01);
     is_read_as(get(set, "beam")->loss_factor, 0.06);
     is_read_as(get(set, "free")->damping, 0.0);
@@ -150,6 +152,7 @@ static void losses_damp(void **state)
     is_read_as(get(set, "ball")->loss_factor, 0.06);
     is_read_as(get(set, "other")->damping, 0.0);
     is_read_as(get(set, "other")->loss_factor, 0.0);
+    is_read_as(get(set, "other")->loss_frequency, 0.0);
     is_read_as(get(set, "metal")->damping, 0.0);
     assert_true(isnan(get(set, "metal")->loss_factor));
     body_set_free(set);
@@ -386,7 +389,9 @@ static void changes_its_revision_with_the_content(void **state)
                  "s: {young: 70e9, poisson: 0.3, density: 2700, relaxation: [{share: 0.1, time: "
                  "1}]}, "
                  "t: {young: 70e9, poisson: 0.3, density: 2700, relaxation: [{share: 0.1, time: "
-                 "2}]}}\nbodies:\n%s",
+                 "2}]}, "
+                 "u: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0.1, loss_frequency: "
+                 "1}}\nbodies:\n%s",
                  rods[i]);
         revision_of(text, revisions[i]);
         for (size_t k = 0; k < i; k++)

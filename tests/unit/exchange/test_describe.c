@@ -27,6 +27,8 @@ static void described(const struct body *body, const char *shape, const char *de
     assert_true(wire.tip_radius == (is_rod ? body->tip_radius : 0.0));
     assert_true(wire.radius == body->radius);
     assert_int_equal(wire.supports[1], body->supports[1]);
+    const double at = wire.losses._buffer->loss_frequency;
+    assert_true(body->loss_frequency > 0.0 ? at == body->loss_frequency : isnan(at));
     assert_true(wire.parameters[PERCUSS_PARAMETER_YOUNG] == 7.0);
     bool flexible = is_rod || body->kind == &beam_kind || body->kind == &cylinder_kind ||
                     body->kind == &block_kind;
@@ -41,6 +43,11 @@ static void describes_every_shape(void **state)
     (void)state;
     struct body sphere = {COMMON, .kind = &sphere_kind, .radius = 0.5};
     described(&sphere, "sphere", "radius 0.5 m", (double[]){0.5, 0.5, 0.5});
+    struct body rubber = {COMMON, .kind = &sphere_kind, .radius = 0.5, .loss_factor = 0.2};
+    described(&rubber, "sphere", "radius 0.5 m, loss factor 0.2", (double[]){0.5, 0.5, 0.5});
+    rubber.loss_frequency = 10.0;
+    described(&rubber, "sphere", "radius 0.5 m, loss factor 0.2 at 10 Hz",
+              (double[]){0.5, 0.5, 0.5});
     struct body cylinder = {COMMON, .kind = &cylinder_kind, .radius = 0.5, .length = 4.0};
     described(&cylinder, "cylinder", "length 4 m, radius 0.5 m", (double[]){2.0, 0.5, 0.5});
     struct body block = {COMMON, .kind = &block_kind, .size = {1.0, 2.0, 4.0}};
@@ -81,7 +88,8 @@ static void check_losses(const percuss_v1_Body *body)
 {
     assert_int_equal(body->losses._length, 1);
     const percuss_v1_MaterialLosses *losses = body->losses._buffer;
-    assert_true(isnan(losses->loss_factor) && isnan(losses->rate_coefficient));
+    assert_true(isnan(losses->loss_factor) && isnan(losses->loss_frequency));
+    assert_true(isnan(losses->rate_coefficient));
     assert_true(losses->rate_reference == 40.0 && losses->rate_exponent == 5.0);
     assert_int_equal(losses->relaxation._length, 1);
     assert_true(losses->relaxation._buffer[0].share == 0.2 &&

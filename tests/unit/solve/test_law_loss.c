@@ -3,6 +3,7 @@
 
 /* Mirrors service/core/solve/error/law.c: how much lower a restitution is for what materials lose
  * of themselves, against contacts that are integrated with it, and where it is said. */
+#include "model/relaxation.h"
 #include "physics/support.h"
 
 #define ACRYLIC ((struct material){"acrylic", 3.2e9, 0.37, 1190.0, INFINITY, 0.0})
@@ -217,6 +218,105 @@ static void a_single_contact_loses_what_its_materials_do(void **state)
     law = PERCUSS_CONTACT_HERTZ;
 }
 
+/* The standard solid that loses most, eta, at the frequency 1. */
+static struct relaxation peaked(double eta)
+{
+    double share = 2.0 * eta * (sqrt(1.0 + eta * eta) - eta);
+    return (struct relaxation){.count = 1, .share = {share}, .time = {sqrt(1.0 - share)}};
+}
+
+/* Of Hertz's contact on a rigid wall at 1 m/s: pi over its duration, 2.9432 times the indentation
+ * over the speed (Johnson, Contact Mechanics, 11.4). */
+static double hertz_frequency(struct body ball)
+{
+    double modulus = ball.material.young / (1.0 - ball.material.poisson * ball.material.poisson);
+    double mass = 4.0 / 3.0 * M_PI * pow(ball.radius, 3.0) * ball.material.density;
+    double depth = pow(0.9375 * mass / (modulus * sqrt(ball.radius)), 0.4);
+    return 0.5 / (2.9432 * depth);
+}
+
+static void a_standard_solid_loses_most_where_it_is_said_to(void **state)
+{
+    (void)state;
+    for (double eta = 0.003; eta < 2.0; eta *= 5.0) {
+        struct relaxation solid = peaked(eta);
+        near_relative(relaxation_loss_factor(&solid, 1.0), eta, 1e-12);
+        assert_true(relaxation_loss_factor(&solid, 0.99) < eta);
+        assert_true(relaxation_loss_factor(&solid, 1.01) < eta);
+    }
+}
+
+/* The answer is that of the stated loss factor at whatever frequency; what the standard solid would
+ * change is in the error where it is more than what measurements leave, and told. */
+static void a_loss_measured_far_off_is_less_certain(void **state)
+{
+    (void)state;
+    const double eta = 0.1;
+    const struct relaxation solid = peaked(eta);
+    struct body ball = lossy(make_sphere(ACRYLIC, 0.015), eta);
+    double frequency = hertz_frequency(ball);
+    law = PERCUSS_CONTACT_AUTO;
+    double known = off_by(ball, rigid_wall(), 1e-3), e = result.contacts[0].restitution,
+           last = known;
+    double others = sqrt(known * known - pow(0.3 * M_PI_2 * eta * e, 2.0));
+    assert_false(warns("measured at"));
+    for (double decades = 0.0; decades < 4.1; decades += 0.25) {
+        ball.loss_frequency = frequency * pow(10.0, -decades);
+        double above = off_by(ball, rigid_wall(), 1e-3);
+        assert_true(result.contacts[0].restitution == e);
+        bool told = warns("the loss_factor of ball (0.1) was measured at");
+        ball.loss_frequency = frequency * pow(10.0, decades);
+        double below = off_by(ball, rigid_wall(), 1e-3);
+        double lacks = eta - relaxation_loss_factor(&solid, pow(10.0, decades));
+        double change = e * expm1(0.77 * M_PI_2 * lacks);
+        print_message("%.2f decades: %.4f, %.4f\n", decades, below, above);
+        /* the solver's duration of a contact is 2.94 times that, to 0.11 % */
+        near_relative(above, hypot(others, fmax(0.3 * M_PI_2 * eta * e, change)), 2e-3);
+        near_relative(below, above, 4e-3);
+        if (decades < 0.4)
+            assert_true(above == known && !told);
+        else
+            assert_true(told && above > last);
+        last = above;
+    }
+    const char *said = strstr(result.warnings[0], "and this contact has ");
+    near_relative(said ? strtod(said + strlen("and this contact has "), NULL) : 0.0, frequency,
+                  2e-3);
+    off_by(ball, rigid_wall(), 0.5);
+    assert_false(warns("measured at"));
+    /* nothing gives back more than it took */
+    ball.loss_factor = 1.8;
+    double most = off_by(ball, rigid_wall(), 1e-3);
+    assert_true(most < 1.0 - result.contacts[0].restitution + 0.01);
+    law = PERCUSS_CONTACT_HERTZ;
+}
+
+/* A ball that is this solid, as stiff at the contact's frequency as it is stated, a decade above
+ * and below its peak, is off by the error, to 20 % of it. */
+static void the_error_is_that_of_the_standard_solid(void **state)
+{
+    (void)state;
+    law = PERCUSS_CONTACT_AUTO;
+    for (double eta = 0.03; eta < 0.4; eta *= 3.0)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            struct body ball = lossy(make_sphere(ACRYLIC, 0.015), eta), solid = ball;
+            double frequency = hertz_frequency(ball), ratio = pow(10.0, sign);
+            ball.loss_frequency = frequency / ratio;
+            double may = off_by(ball, rigid_wall(), 1e-3);
+            double e = result.contacts[0].restitution;
+            solid.loss_factor = NAN;
+            solid.relaxation = peaked(eta);
+            solid.material.young /= relaxation_storage(&solid.relaxation, ratio);
+            solid.relaxation.time[0] *= ratio / (2.0 * M_PI * frequency);
+            off_by(solid, rigid_wall(), 1e-3);
+            print_message("loss factor %.2f: e %.4f +- %.4f, the solid %.4f\n", eta, e, may,
+                          result.contacts[0].restitution);
+            double change = result.contacts[0].restitution - e;
+            assert_true(change > 0.8 * may && change < 1.02 * may);
+        }
+    law = PERCUSS_CONTACT_HERTZ;
+}
+
 /* Of urethanes two resiliences are published (Molded Dimensions, Resilience, table 1): Yerzley's,
  * of a mass that vibrates freely on the rubber, whose first way back is exp(-pi eta/2) of that
  * down, and Bashore's, the height to which a plunger comes up. The loss factor of the one says the
@@ -310,6 +410,9 @@ int main(void)
         cmocka_unit_test(a_rod_gives_back_less),
         cmocka_unit_test(a_single_contact_loses_what_its_materials_do),
         cmocka_unit_test(urethanes_rebound_by_their_free_vibration),
+        cmocka_unit_test(a_standard_solid_loses_most_where_it_is_said_to),
+        cmocka_unit_test(a_loss_measured_far_off_is_less_certain),
+        cmocka_unit_test(the_error_is_that_of_the_standard_solid),
         cmocka_unit_test(steps_follow_what_is_remembered),
         cmocka_unit_test(cvode_loses_the_same),
         cmocka_unit_test(other_contacts_have_none),

@@ -441,15 +441,45 @@ static double own_loss_deviation(const struct own_law *own, double rebound)
     return loses ? smaller(0.5 * lost / e, sqrt(lost)) : 0.0;
 }
 
+/* Of its loss factor. */
+static double measured_loss_deviation(const struct problem *problem, size_t contact, double rebound)
+{
+    double loss_factor = problem->contact_model.choices[contact].loss->loss_factor;
+    return LOSS_DEVIATION * M_PI_2 * loss_factor * rebound;
+}
+
+/* The bodies' parts of the contact's loss factor that standard solids of the stated frequencies
+ * lack. */
+static void lacking_loss(const struct problem *problem, size_t contact, double part[2])
+{
+    double frequency = 0.5 * problem_frequency(problem, contact) / M_PI;
+    for (int which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, contact, which);
+        part[which] = 0.0;
+        if (body->loss_frequency > 0.0)
+            part[which] = indentation_share(problem, contact, which) * body->loss_factor *
+                          (1.0 - 1.0 / cosh(log(frequency / body->loss_frequency)));
+    }
+}
+
+/* What they change: a force like half a sine loses 0.77 of what half a cycle does (the integral of
+ * w |F|^2 over all frequencies), and nothing gives back more than it took. */
+static double distance_deviation(const double part[2], double rebound)
+{
+    return fmin(rebound * expm1(0.77 * M_PI_2 * (part[0] + part[1])), 1.0 - rebound);
+}
+
 double loss_deviation(const struct problem *problem, size_t contact, double rebound)
 {
+    double part[2];
     const struct own_law *own = problem->contact_model.choices[contact].own;
     if (own)
         return own_loss_deviation(own, rebound);
     if (!has_loss(problem, contact))
         return 0.0;
-    double loss_factor = problem->contact_model.choices[contact].loss->loss_factor;
-    return LOSS_DEVIATION * M_PI_2 * loss_factor * rebound;
+    lacking_loss(problem, contact, part);
+    return fmax(measured_loss_deviation(problem, contact, rebound),
+                distance_deviation(part, rebound));
 }
 
 /* The bodies' parts of the contact's loss factor, 0 where none is stated, or is in the answer;
@@ -527,9 +557,35 @@ static void find_unstated_loss(const struct problem *problem, size_t contact, do
     }
 }
 
+/* Of a loss in the answer that was measured so far off that this is the larger part of its error.
+ */
+static void find_distant_loss(const struct problem *problem, size_t contact, double rebound,
+                              struct warnings *warnings)
+{
+    double part[2];
+    lacking_loss(problem, contact, part);
+    double change = distance_deviation(part, rebound);
+    if (!(change > problem->tolerance) ||
+        !(change > measured_loss_deviation(problem, contact, rebound)))
+        return;
+    for (unsigned which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, contact, (int)which);
+        if (part[which] >= 0.5 * (part[0] + part[1]))
+            warnings_add(
+                warnings, WARNING_LOSS + which,
+                "contacts[%zu]: the loss_factor of %s (%.3g) was measured at %.4g Hz, and this "
+                "contact has %.4g Hz: its loss may be another one, which may change the "
+                "restitution by %.2g; state one measured nearer, or a relaxation",
+                contact, body->id, body->loss_factor, body->loss_frequency,
+                0.5 * problem_frequency(problem, contact) / M_PI, change);
+    }
+}
+
 void loss_find(const struct problem *problem, size_t contact, double rebound,
                struct warnings *warnings)
 {
+    if (has_loss(problem, contact))
+        find_distant_loss(problem, contact, rebound, warnings);
     find_stated_loss(problem, contact, rebound, warnings);
     find_unstated_loss(problem, contact, rebound, warnings);
 }

@@ -20,7 +20,14 @@
  * 4), and exp(-pi eta/2) of the restitution. Of two bodies each stores its share of the
  * indentation: (1 - nu^2)/E, of the sum of both. Hertz's contact with a viscosity that gives eta at
  * the frequency of its duration T, pi/T, loses 1.77 eta instead of 1.57 (Kuwabara and Kono, Jpn. J.
- * Appl. Phys. 26 (1987) 1230). */
+ * Appl. Phys. 26 (1987) 1230).
+ *
+ * A loss factor eta that was measured at another frequency w_0 is taken as it is, as that of many
+ * materials varies slowly. How much it may vary is that of the material that varies most around it:
+ * the standard solid whose loss factor is largest, and eta, at w_0. A share g that relaxes in the
+ * time t has the loss factor g w t/(1 - g + (w t)^2), which is largest at w t = sqrt(1 - g), and
+ * g/(2 sqrt(1 - g)) there. So it is eta/cosh(ln(w/w_0)) for every eta: a loss modulus is a sum of
+ * such terms, and no sum falls faster than one. */
 #ifndef PERCUSS_SOLVE_ERROR_LAW_H
 #define PERCUSS_SOLVE_ERROR_LAW_H
 
@@ -85,7 +92,8 @@ void unstated_explain(const struct problem *problem, const struct impact_outcome
 void unstated_find(const struct problem *problem, size_t contact,
                    const struct unstated_impact *impact, struct warnings *warnings);
 
-/* By how much the restitution may be wrong by the loss factor of a contact that has it. */
+/* By how much the restitution may be wrong by the loss factor of a contact that has it: by what
+ * measurements leave, or by the distance of the frequency at which it was measured. */
 double loss_deviation(const struct problem *problem, size_t contact, double rebound);
 
 /* Loss of a contact's restitution by the stated loss_factor of its materials, where its law does
