@@ -12,37 +12,13 @@
 #include "lists.h"
 #include "percuss/similar.h"
 
-bool lists_begin_bodies(struct percuss_body_list *list, size_t most)
-{
-    *list = (struct percuss_body_list){.bodies = calloc(most + 1, sizeof *list->bodies)};
-    return list->bodies;
-}
+enum { FIRST_PAIRS = 16 };
 
-static bool has_pair(const struct percuss_body_list *list, const percuss_v1_MaterialPair *wire)
+struct lists_bodies lists_begin_bodies(size_t most)
 {
-    for (size_t i = 0; i < list->pair_count; i++)
-        if (strcmp(list->pairs[i].material_a, wire->material_a) == 0 &&
-            strcmp(list->pairs[i].material_b, wire->material_b) == 0)
-            return true;
-    return false;
-}
-
-bool lists_add_body(struct percuss_body_list *list, const percuss_v1_Body *wire)
-{
-    convert_announced_body(wire, &list->bodies[list->count++]);
-    /* bodies of one material have the same ones */
-    for (uint32_t i = 0; i < wire->pairs._length; i++) {
-        const percuss_v1_MaterialPair *pair = &wire->pairs._buffer[i];
-        if (has_pair(list, pair))
-            continue;
-        struct percuss_material_pair *pairs =
-            realloc(list->pairs, (list->pair_count + 1) * sizeof *pairs);
-        if (!pairs)
-            return false;
-        list->pairs = pairs;
-        convert_announced_pair(pair, &pairs[list->pair_count++]);
-    }
-    return true;
+    struct lists_bodies made = {.list.bodies = calloc(most + 1, sizeof *made.list.bodies)};
+    made.failed = !made.list.bodies;
+    return made;
 }
 
 static int by_id(const void *left, const void *right)
@@ -58,15 +34,63 @@ static int by_materials(const void *left, const void *right)
     return order ? order : strcmp(a->material_b, b->material_b);
 }
 
-enum percuss_result lists_end_bodies(struct percuss_body_list *list, bool whole)
+/* Bodies of one material have the same pairs. */
+static void sort_pairs(struct percuss_body_list *list)
 {
-    if (!whole) {
+    struct percuss_material_pair *pairs = list->pairs;
+    if (list->pair_count == 0)
+        return;
+    qsort(pairs, list->pair_count, sizeof *pairs, by_materials);
+    size_t last = 0;
+    for (size_t i = 1; i < list->pair_count; i++)
+        if (by_materials(&pairs[last], &pairs[i]) != 0)
+            pairs[++last] = pairs[i];
+    list->pair_count = last + 1;
+}
+
+/* Room for one more pair: by those that stand twice, if that makes half of it, or twice as much. */
+static bool make_room(struct lists_bodies *made)
+{
+    struct percuss_body_list *list = &made->list;
+    if (list->pair_count < made->pair_room)
+        return true;
+    sort_pairs(list);
+    if (made->pair_room > 0 && list->pair_count <= made->pair_room / 2)
+        return true;
+    size_t room = made->pair_room > 0 ? 2 * made->pair_room : FIRST_PAIRS;
+    struct percuss_material_pair *pairs = realloc(list->pairs, room * sizeof *pairs);
+    if (!pairs)
+        return false;
+    list->pairs = pairs;
+    made->pair_room = room;
+    return true;
+}
+
+void lists_add_body(struct lists_bodies *made, const percuss_v1_Body *wire)
+{
+    struct percuss_body_list *list = &made->list;
+    if (made->failed)
+        return;
+    if (list->count == 0)
+        memcpy(made->revision, wire->catalogue_revision, sizeof made->revision);
+    made->mixed = made->mixed || strcmp(made->revision, wire->catalogue_revision) != 0;
+    convert_announced_body(wire, &list->bodies[list->count++]);
+    for (uint32_t i = 0; i < wire->pairs._length && !made->failed; i++) {
+        made->failed = !make_room(made);
+        if (!made->failed)
+            convert_announced_pair(&wire->pairs._buffer[i], &list->pairs[list->pair_count++]);
+    }
+}
+
+enum percuss_result lists_end_bodies(struct lists_bodies *made, struct percuss_body_list *list)
+{
+    *list = made->list;
+    if (made->failed) {
         percuss_body_list_free(list);
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of bodies");
     }
     qsort(list->bodies, list->count, sizeof *list->bodies, by_id);
-    if (list->pairs)
-        qsort(list->pairs, list->pair_count, sizeof *list->pairs, by_materials);
+    sort_pairs(list);
     return PERCUSS_RESULT_OK;
 }
 

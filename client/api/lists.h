@@ -9,14 +9,23 @@
 
 #include "percuss_wire.h"
 
-/* An empty list with room for `most` bodies. False: no memory, for lists_end_bodies. */
-bool lists_begin_bodies(struct percuss_body_list *list, size_t most);
+/* A list under way. */
+struct lists_bodies {
+    struct percuss_body_list list;
+    size_t pair_room;
+    char revision[PERCUSS_ID_SIZE]; /* of the catalogue; empty: an older daemon does not say */
+    bool failed;                    /* no memory */
+    bool mixed;                     /* bodies of several catalogues: a reload is under way */
+};
 
-/* Adds a copy of a body, and the pairs of its materials that are not there yet. The same. */
-bool lists_add_body(struct percuss_body_list *list, const percuss_v1_Body *wire);
+/* An empty list with room for `most` bodies. */
+struct lists_bodies lists_begin_bodies(size_t most);
 
-/* Sorts a whole list. NO_MEMORY, with its text, and an empty list where one of the others failed.
- */
-enum percuss_result lists_end_bodies(struct percuss_body_list *list, bool whole);
+/* Adds a copy of a body and of the pairs of its materials, which may be there already. */
+void lists_add_body(struct lists_bodies *made, const percuss_v1_Body *wire);
+
+/* The list, sorted, with each pair once. NO_MEMORY, with its text, and an empty list where there
+ * was too little. */
+enum percuss_result lists_end_bodies(struct lists_bodies *made, struct percuss_body_list *list);
 
 #endif

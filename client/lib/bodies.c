@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <string.h>
 
 #include "announcements.h"
@@ -10,7 +11,17 @@
 #include "moment.h"
 #include "receive.h"
 
-/* One look at the bodies of a server. PENDING: fewer than `expected`. */
+/* Whether they are the whole catalogue that the server says it has. During a reload bodies of two
+ * catalogues are there, and the status comes after the last body. */
+static bool is_whole(const struct lists_bodies *made, const struct percuss_server *server)
+{
+    bool old = made->revision[0] == '\0';
+    return made->list.count >= server->bodies && !made->mixed &&
+           (old || made->list.count == 0 ||
+            strcmp(made->revision, server->catalogue_revision) == 0);
+}
+
+/* One look at the bodies of a server. PENDING: not all of one catalogue are there. */
 static enum percuss_result look_at_bodies(struct percuss_client *client, dds_entity_t reader,
                                           const struct percuss_server *server,
                                           struct percuss_body_list *list)
@@ -20,19 +31,19 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     if (result != PERCUSS_RESULT_OK)
         return result;
     /* of all announcements those of this server */
-    bool good = lists_begin_bodies(list, (size_t)all.count);
-    for (int i = 0; good && i < all.count; i++) {
+    struct lists_bodies made = lists_begin_bodies((size_t)all.count);
+    for (int i = 0; i < all.count; i++) {
         const percuss_v1_Body *wire = all.samples[i];
         if (all.infos[i].valid_data && memcmp(wire->server, server->server, 16) == 0)
-            good = lists_add_body(list, wire);
+            lists_add_body(&made, wire);
     }
     announcements_release(&all);
     /* more are on their way */
-    if (good && list->count < server->bodies) {
-        percuss_body_list_free(list);
+    if (!made.failed && !is_whole(&made, server)) {
+        percuss_body_list_free(&made.list);
         return PERCUSS_RESULT_PENDING;
     }
-    return lists_end_bodies(list, good);
+    return lists_end_bodies(&made, list);
 }
 
 enum percuss_result bodies_list(struct percuss_client *client, double timeout,
@@ -50,7 +61,6 @@ enum percuss_result bodies_list(struct percuss_client *client, double timeout,
         result = announcements_connected(client, timeout, &server);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* complete when as many are there as the server says it has */
     while ((result = look_at_bodies(client, client->body_reader, &server, list)) ==
            PERCUSS_RESULT_PENDING) {
         if (moment_now() >= deadline)
@@ -58,6 +68,9 @@ enum percuss_result bodies_list(struct percuss_client *client, double timeout,
                              "%s has not announced all its %u bodies within %g s",
                              client->server_name, server.bodies, timeout);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
+        result = announcements_connected(client, fmax(deadline - moment_now(), 0.0), &server);
+        if (result != PERCUSS_RESULT_OK)
+            break;
     }
     return result;
 }

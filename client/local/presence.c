@@ -112,15 +112,16 @@ enum percuss_result local_bodies(struct percuss_client *client, double timeout,
     if (result != PERCUSS_RESULT_OK)
         return result;
     struct describer describer;
+    struct lists_bodies made = lists_begin_bodies(set->count);
     bool good = describe_begin(&describer, set);
     if (good) {
-        good = lists_begin_bodies(list, set->count);
-        for (size_t i = 0; good && i < set->count; i++) {
+        for (size_t i = 0; i < set->count; i++) {
             percuss_v1_Body wire;
             describe_body(&describer, &set->bodies[i], &wire);
-            good = lists_add_body(list, &wire);
+            lists_add_body(&made, &wire);
         }
         describe_end(&describer);
     }
-    return lists_end_bodies(list, good);
+    made.failed = made.failed || !good;
+    return lists_end_bodies(&made, list);
 }

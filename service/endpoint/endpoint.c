@@ -562,6 +562,7 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
     for (size_t i = 0; i < set->count; i++) {
         describe_body(&describer, &set->bodies[i], &body);
         memcpy(body.server, endpoint->server, sizeof body.server);
+        COPY_TEXT(body.catalogue_revision, set->revision);
         good = write_patiently(endpoint->body_writer, &body) && good;
     }
     describe_end(&describer);

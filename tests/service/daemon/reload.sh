@@ -86,3 +86,27 @@ done
 wait "$others" || fail "$(cat "$work/clients")"
 others=
 stop_daemon
+
+say "a list of bodies is of one catalogue, also while it is read again"
+for radius in 0.01 0.02; do
+    {
+        echo "materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}"
+        echo "friction: [{between: [steel, steel], coefficient: $radius}]"
+        echo "bodies:"
+        seq 400 | sed "s/.*/  ball-&: {shape: sphere, material: steel, radius: $radius}/"
+        [ "$radius" = 0.01 ] || echo "  more: {shape: sphere, material: steel, radius: $radius}"
+    } >"$work/catalogue-$radius"
+done
+cp "$work/catalogue-0.01" "$work/catalogue.yaml"
+start_daemon
+"$peers/whole_lists" "$domain" 4 >"$work/lists" 2>&1 9>&- &
+others=$!
+for i in 1 2 3 4 5 6 7 8 9 10; do
+    sleep 0.3
+    cp "$work/catalogue-0.0$((1 + i % 2))" "$work/catalogue.yaml"
+    kill -HUP "$daemon"
+done
+wait "$others" || fail "$(cat "$work/lists")"
+others=
+cat "$work/lists"
+stop_daemon

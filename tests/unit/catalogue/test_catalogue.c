@@ -351,6 +351,7 @@ static void changes_its_revision_with_the_content(void **state)
         "  r: {shape: rod, material: q, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: s, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: t, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: u, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: s, radius: 0.01, length: 1, damping: 0}\n",
         "  r: {shape: rod, material: m, radius: 0.010000000000000002, length: 1}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 2}\n",
