@@ -72,8 +72,8 @@ void lists_add_body(struct lists_bodies *made, const percuss_v1_Body *wire)
     if (made->failed)
         return;
     if (list->count == 0)
-        memcpy(made->revision, wire->catalogue_revision, sizeof made->revision);
-    made->mixed = made->mixed || strcmp(made->revision, wire->catalogue_revision) != 0;
+        memcpy(list->catalogue_revision, wire->catalogue_revision, sizeof list->catalogue_revision);
+    made->mixed = made->mixed || strcmp(list->catalogue_revision, wire->catalogue_revision) != 0;
     convert_announced_body(wire, &list->bodies[list->count++]);
     for (uint32_t i = 0; i < wire->pairs._length && !made->failed; i++) {
         made->failed = !make_room(made);

@@ -13,9 +13,8 @@
 struct lists_bodies {
     struct percuss_body_list list;
     size_t pair_room;
-    char revision[PERCUSS_ID_SIZE]; /* of the catalogue; empty: an older daemon does not say */
-    bool failed;                    /* no memory */
-    bool mixed;                     /* bodies of several catalogues: a reload is under way */
+    bool failed; /* no memory */
+    bool mixed;  /* bodies of several catalogues: a reload is under way */
 };
 
 /* An empty list with room for `most` bodies. */

@@ -15,10 +15,10 @@
  * catalogues are there, and the status comes after the last body. */
 static bool is_whole(const struct lists_bodies *made, const struct percuss_server *server)
 {
-    bool old = made->revision[0] == '\0';
+    bool old = made->list.catalogue_revision[0] == '\0';
     return made->list.count >= server->bodies && !made->mixed &&
            (old || made->list.count == 0 ||
-            strcmp(made->revision, server->catalogue_revision) == 0);
+            strcmp(made->list.catalogue_revision, server->catalogue_revision) == 0);
 }
 
 /* One look at the bodies of a server. PENDING: not all of one catalogue are there. */

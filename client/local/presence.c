@@ -118,6 +118,7 @@ enum percuss_result local_bodies(struct percuss_client *client, double timeout,
         for (size_t i = 0; i < set->count; i++) {
             percuss_v1_Body wire;
             describe_body(&describer, &set->bodies[i], &wire);
+            COPY_TEXT(wire.catalogue_revision, set->revision);
             lists_add_body(&made, &wire);
         }
         describe_end(&describer);

@@ -20,6 +20,9 @@ PERCUSS_STATUS_LIST(SAME_STATUS)
 PERCUSS_END_REASON_LIST(SAME_END)
 PERCUSS_DELASSUS_SOURCE_LIST(SAME_SOURCE)
 PERCUSS_FRICTION_STATE_LIST(SAME_STATE)
+SAME(Body_SUPPORT_FREE, (unsigned)PERCUSS_SUPPORT_FREE);
+SAME(Body_SUPPORT_PINNED, (unsigned)PERCUSS_SUPPORT_PINNED);
+SAME(Body_SUPPORT_CLAMPED, (unsigned)PERCUSS_SUPPORT_CLAMPED);
 
 struct give_piece {
     struct give_piece *before;
@@ -65,6 +68,7 @@ void give_pieces_free(struct give_pieces *pieces)
 #define GIVE_OBJECT(name, element, ...)                                                            \
     if (!give_##element(pieces, &from->name, &to->name))                                           \
         return false;
+#define GIVE_OPTIONAL GIVE_OBJECT
 #define GIVE_BUFFER(name, count)                                                                   \
     to->name._length = to->name._maximum = (uint32_t)from->count;                                  \
     to->name._buffer = piece(pieces, from->count, sizeof *to->name._buffer);                       \
@@ -119,10 +123,27 @@ bool give_answer(struct give_pieces *pieces, const struct percuss_reply *reply,
     return give_members(pieces, reply, answer);
 }
 
+GIVE_STRUCT(relaxation_term, RelaxationTerm, PERCUSS_RELAXATION_TERM_FIELDS)
+GIVE_STRUCT(contact_law, ContactLaw, PERCUSS_CONTACT_LAW_FIELDS)
+GIVE_STRUCT(material_pair, MaterialPair, PERCUSS_MATERIAL_PAIR_FIELDS)
+
+static bool give_site(struct give_pieces *pieces, const struct percuss_site *from,
+                      percuss_msgs_msg_dds__BodySite_ *to)
+{
+    (void)pieces;
+    GIVE_ID(name)
+    GIVE_VECTOR(point)
+    GIVE_VECTOR(normal)
+    return true;
+}
+
+_Static_assert(sizeof((struct percuss_body *)NULL)->parameters ==
+                   sizeof((percuss_msgs_msg_dds__Body_ *)NULL)->parameters,
+               "as many as in the message");
+
 static bool give_body(struct give_pieces *pieces, const struct percuss_body *from,
                       percuss_msgs_msg_dds__Body_ *to)
 {
-    (void)pieces;
     GIVE_ID(id)
     GIVE_TEXT(shape)
     GIVE_TEXT(material)
@@ -130,15 +151,28 @@ static bool give_body(struct give_pieces *pieces, const struct percuss_body *fro
     GIVE_TEXT(description)
     GIVE_VECTOR(half_extents)
     GIVE_VALUE(radius)
+    GIVE_VALUE(tip_radius)
+    for (int end = 0; end < 2; end++)
+        to->end_supports[end] = from->supports[end];
+    memcpy(to->parameters, from->parameters, sizeof to->parameters);
     GIVE_VECTOR(inertia)
     GIVE_VECTOR(products)
+    GIVE_LIST(sites, site_count, site)
+    GIVE_VALUE(loss_factor)
+    GIVE_VALUE(loss_frequency)
+    GIVE_LIST(relaxation, relaxation_count, relaxation_term)
+    GIVE_VALUE(rate_reference)
+    GIVE_VALUE(rate_exponent)
+    GIVE_VALUE(rate_coefficient)
     return true;
 }
 
 bool give_bodies(struct give_pieces *pieces, const struct percuss_body_list *from,
                  percuss_msgs_msg_dds__BodyList_ *to)
 {
+    GIVE_TEXT(catalogue_revision)
     GIVE_LIST(bodies, count, body)
+    GIVE_LIST(pairs, pair_count, material_pair)
     return true;
 }
 

@@ -358,9 +358,10 @@ static bool bridge_open(struct bridge *bridge, const struct bridge_config *confi
     return true;
 }
 
+/* Their pairs are those of the catalogue. */
 static bool same_bodies(const struct percuss_body_list *a, const struct percuss_body_list *b)
 {
-    return a->count == b->count &&
+    return a->count == b->count && strcmp(a->catalogue_revision, b->catalogue_revision) == 0 &&
            (a->count == 0 || memcmp(a->bodies, b->bodies, a->count * sizeof *a->bodies) == 0);
 }
 

@@ -80,6 +80,7 @@ struct percuss_body_list {
     struct percuss_body *bodies; /* sorted by id */
     size_t pair_count;           /* each once, with a body's material; 0 of an older server, too */
     struct percuss_material_pair *pairs; /* sorted by both names */
+    char catalogue_revision[64];         /* empty of an older server */
 };
 
 /* A server's id in hexadecimal digits, with the terminating zero. */

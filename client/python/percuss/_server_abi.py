@@ -81,6 +81,7 @@ class BodyList(ctypes.Structure):
         ("bodies", POINTER(Body)),
         ("pair_count", c_size_t),
         ("pairs", POINTER(MaterialPair)),
+        ("catalogue_revision", c_char * 64),
     ]
 
 

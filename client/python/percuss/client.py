@@ -255,6 +255,7 @@ class Client:
         try:
             bodies = Bodies((one.id, one) for one in map(server.read_body, found.bodies[: found.count]))
             bodies.pairs = tuple(map(server.read_pair, found.pairs[: found.pair_count]))
+            bodies.catalogue_revision = found.catalogue_revision.decode()
         finally:
             _library.percuss_body_list_free(ctypes.byref(found))
         return bodies

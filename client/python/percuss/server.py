@@ -263,6 +263,8 @@ class Bodies(_Named[Body]):
     _path, _where = "body", "in the catalogue"
     pairs: tuple[MaterialPair, ...] = ()
     """Of their materials, those of which the catalogue states friction or a law, sorted by both names."""
+    catalogue_revision: str = ""
+    """Hash of the catalogue, as replies have it; empty: an older server."""
 
 
 class Specimens(_Named[Specimen]):

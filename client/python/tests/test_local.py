@@ -58,6 +58,7 @@ class Local(unittest.TestCase):
             )
             with percuss.Local(path) as local:
                 bodies = local.bodies()
+                self.assertEqual(bodies.catalogue_revision, local.servers()[0].catalogue_revision)
         foam, steel = bodies.pairs
         assert foam.law is not None
         self.assertEqual((foam.material_a, foam.material_b, foam.law.name, foam.law.kind), ("foam", "steel", "buffer", "hysteresis"))

@@ -112,6 +112,56 @@ expect 0 "$peers/ros2_peer" "$domain" topic 0.1 2
 cp "$out" "$work/again"
 agree "$work/again" 0.1 0.2
 
+# announced: the catalogue as it is announced is that of the command line
+announced() {
+    expect 0 "$peers/ros2_bodies" "$domain" "$@"
+    revision=$(cat "$err")
+    cp "$out" "$work/announced"
+    expect 0 percuss bodies --csv
+    sed 1d "$out" >"$work/listed"
+    echo >>"$work/listed"
+    expect 0 percuss bodies --pairs --csv
+    sed 1d "$out" >>"$work/listed"
+    echo >>"$work/listed"
+    head -n "$(wc -l <"$work/listed")" "$work/announced" | diff "$work/listed" - || fail "listed (<) and announced (>) are not the same"
+    expect 0 percuss status
+    shows "$revision"
+}
+
+say "the catalogue, with what it states of materials, their pairs and places on bodies, as the command line lists it"
+announced
+printf '0,0\n1e-3,10\n2e-3,40\n' >"$work/press.csv"
+cat >"$work/materials" <<'YAML'
+  gum:  {young: 8 MPa, poisson: 0.49, density: 1100, loss_factor: 0.2, loss_frequency: 2 kHz}
+  pom:  {young: 4 GPa, poisson: 0.4, density: 1410, relaxation: [{share: 0.1, time: 30 us}, {share: 0.05, time: 2 ms}]}
+  mild: {young: 210 GPa, poisson: 0.3, density: 7850, yield: 250 MPa, rate: {reference: 40, exponent: 5}}
+YAML
+cat >"$work/bodies" <<'YAML'
+  gum-ball: {shape: sphere, material: gum, radius: 0.01}
+  pom-rod: {shape: rod, material: pom, radius: 0.01, length: 0.3, ends: [free, fixed], tip_radius: 0.02}
+  mild-ball: {shape: sphere, material: mild, radius: 0.01}
+YAML
+sed -e "/^materials:/r $work/materials" -e "/^bodies:/r $work/bodies" "$work/catalogue.yaml" >"$work/more.yaml"
+cat >"$work/catalogue.yaml" <<'YAML'
+begin: true
+laws:
+  buffer: {between: [gum, mild], points: press.csv}
+  stop: {between: [pom, mild], stiffness: 2e6, hysteresis: 0.3}
+friction: [{between: [gum, steel], coefficient: 0.3}, {between: [pom, mild], coefficient: 0.2, deviation: 0.05}]
+YAML
+sed '/^begin: true/d' "$work/more.yaml" >>"$work/catalogue.yaml"
+kill -HUP "$daemon"
+announced "$revision"
+grep -q '^gum,mild,nan,nan,buffer,points,.*,press.csv,3,' "$work/announced" || fail "$(cat "$work/announced")"
+grep -q '^al-half-plate edge [^ ]* -0.0424[^ ]* [^ ]* [^ ]* -1 ' "$work/announced" || fail "$(cat "$work/announced")"
+grep -q '^pom-rod 0 2$' "$work/announced" || fail "$(cat "$work/announced")"
+
+say "other friction alone is another catalogue, too"
+sed -i 's/coefficient: 0.3}/coefficient: 0.4}/' "$work/catalogue.yaml"
+kill -HUP "$daemon"
+announced "$revision"
+grep -q '^gum,steel,0.4' "$work/announced" || fail "$(cat "$work/announced")"
+
 say "SIGTERM ends it"
 kill -TERM "$bridge"
 code=0

@@ -61,7 +61,7 @@ static void two_catalogues_are_noticed(void **state)
     assert_false(made.mixed);
     add(&made, 0, "one");
     add(&made, 1, "one");
-    assert_true(!made.mixed && strcmp(made.revision, "one") == 0);
+    assert_true(!made.mixed && strcmp(made.list.catalogue_revision, "one") == 0);
     add(&made, 2, "two");
     add(&made, 3, "one");
     assert_true(made.mixed);
