@@ -49,8 +49,8 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
  *
  * A law that remembers (viscoelastic bodies) has a force of the whole way since the touch: `force`
  * and `stored` are those of a sudden indentation and of what comes back of one that is held, and
- * its own force is contact/memory.h, which impact/memory_step.h follows along the steps of a single
- * contact without micro-slip.
+ * its own force is contact/memory.h, which impact/memory_step.h follows along the steps of a contact
+ * without micro-slip.
  *
  * A law with `moving` has a force of the indentation and its rate; `force` is that at rest,
  * `stored` what it gives back at rest. */
@@ -114,9 +114,9 @@ struct contact_law contact_law_dissipative(double stiffness, double exponent, do
  * back 1 - hysteresis (0 <= hysteresis < 1), see law_power.c. */
 struct contact_law contact_law_power(double stiffness, double exponent, double hysteresis);
 
-/* Why a law is not followed in a scene of so many contacts, so many of them with friction by CVODE,
- * as the end of a message. NULL: it is. */
-const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t rubbing);
+/* Why a law is not followed in a scene with so many contacts with friction by CVODE, as the end of
+ * a message. NULL: it is. */
+const char *contact_law_refuses(const struct contact_law *law, size_t rubbing);
 
 /* The operations of each model that can be requested, with its name in capitals. */
 #define CONTACT_LAW_DECLARATION(name, text)                                                        \

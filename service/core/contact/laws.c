@@ -41,13 +41,9 @@ const struct contact_law_operations *contact_law_asked(unsigned model)
     return all[model < PERCUSS_CONTACT_COUNT ? model : PERCUSS_CONTACT_AUTO];
 }
 
-const char *contact_law_refuses(const struct contact_law *law, size_t contacts, size_t rubbing)
+const char *contact_law_refuses(const struct contact_law *law, size_t rubbing)
 {
-    if (!law->operations->lossy)
-        return NULL;
-    if (contacts > 1)
-        return "contacts: must be one";
-    if (rubbing > 0)
+    if (law->operations->lossy && rubbing > 0)
         return "method cvode has no friction beside it (options.friction none; method modal has)";
     return NULL;
 }

@@ -326,15 +326,22 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
 
+/* Contacts whose force depends on their way were solved with the nodes. */
+NOT_INLINE static bool end_way(struct contact_step *step, const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++) {
+        step->end_indentation[c] = step->way->contact[c].indentation[NODES];
+        step->end_force[c] = step->way->contact[c].force[NODES];
+    }
+    return true;
+}
+
 /* Solves the contacts at the step's end for the approaches, from the values there are, as exactly
  * as the nodes. */
 static inline bool find_end(struct contact_step *step, const struct scene *scene)
 {
-    if (step->way) {
-        *step->end_indentation = step->way->indentation[NODES];
-        *step->end_force = step->way->force[NODES];
-        return true;
-    }
+    if (step->way)
+        return end_way(step, scene);
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))
@@ -367,41 +374,51 @@ NOT_INLINE static enum contact_step_end solve_together(struct contact_step *step
                : STEP_UNSOLVED;
 }
 
-/* Approaches of a single contact at the nodes and the end under the tangents' forces alone; the
- * contact's own forces then reduce them to d. */
-static void less_tangents(struct contact_step *step, const struct node_problem *problem,
-                          double approach[STEP_POINTS])
+/* The tangents' part in what the contacts' own forces then reduce to d, and in the approaches,
+ * which have the residual flexibility still. */
+static void less_tangents(struct contact_step *step, const struct node_problem *problem)
 {
     const struct scene *scene = problem->scene;
-    memcpy(approach, problem->target[0], STEP_POINTS * sizeof *approach);
-    if (!scene->frictions)
-        return;
-    memset(step->force[0], 0, sizeof step->force[0]);
+    memset(step->force, 0, scene->contacts * sizeof *step->force);
     coupling_take(problem->coupling, scene, problem->level, step->force, step->taken);
-    for (int i = 0; i < STEP_POINTS; i++)
-        approach[i] -= step->taken[0][i];
-    for (size_t row = 1; row < scene->rows; row++)
-        approach[NODES] -= scene->residual[row] * collocation_last(step->force[row]);
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double *target = step->way->target[c], *approach = step->way->approach[c];
+        for (int i = 0; i < STEP_POINTS; i++) {
+            target[i] -= step->taken[c][i];
+            approach[i] -= step->taken[c][i];
+        }
+        for (size_t row = scene->contacts; row < scene->rows; row++) {
+            double residual = scene->residual[c * scene->rows + row];
+            for (int i = 0; i < NODES; i++)
+                approach[i] += residual * step->force[row][i];
+            target[NODES] -= residual * collocation_last(step->force[row]);
+        }
+    }
 }
 
-/* Those of a single contact whose force depends on its way. */
+/* Those of contacts whose force depends on their way. */
 NOT_INLINE static enum contact_step_end solve_way(struct contact_step *step,
                                                   const struct node_problem *problem)
 {
-    double approach[STEP_POINTS];
-    const struct way_problem way = {
-        .level = problem->level,
-        .last = step->last_change,
-        .coupling = coupling_own(problem->coupling, problem->level, 0)->by,
-        .target = approach,
-    };
-    less_tangents(step, problem, approach);
-    if (!way_step_prepare(step->way, problem->level, step->arena))
+    struct way_step *way = step->way;
+    size_t contacts = problem->scene->contacts;
+    memcpy(way->target, problem->target, contacts * sizeof *way->target);
+    memcpy(way->approach, problem->target, contacts * sizeof *way->approach);
+    if (problem->scene->frictions)
+        less_tangents(step, problem);
+    if (!way_step_prepare(way, problem->level, step->arena))
         return STEP_MEMORY;
-    bool solved =
-        way_step_solve(step->way, &way, step->indentation[0], step->force[0], &step->iterations);
-    memcpy(step->stiffness[0], step->way->stiffness, sizeof step->stiffness[0]);
-    return solved ? STEP_SOLVED : STEP_UNSOLVED;
+    if (!way_step_solve(way, problem->level, step->indentation, step->last_change,
+                        &step->iterations))
+        return STEP_UNSOLVED;
+    for (size_t c = 0; c < contacts; c++) {
+        const struct way_contact *contact = &way->contact[c];
+        memcpy(step->indentation[c], contact->indentation, sizeof step->indentation[c]);
+        memcpy(step->force[c], contact->force, sizeof step->force[c]);
+        for (int i = 0; i < NODES; i++)
+            step->stiffness[c][i] = contact->slope[i][i];
+    }
+    return STEP_SOLVED;
 }
 
 /* Forces and indentations of the normals at the nodes. */

@@ -28,7 +28,7 @@ struct contact_step {
     double last_change;         /* relative, see node_solver.h */
     int level;                  /* of the step just solved */
 
-    struct way_step *way; /* of a contact whose force depends on its way, else NULL */
+    struct way_step *way; /* of contacts whose force depends on their way, else NULL */
     struct midpoint midpoint;
     struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */

@@ -153,7 +153,8 @@ static struct grown grow_at_nodes(const struct memory_step *step, const double n
     for (int i = 0; i < NODES; i++) {
         double slope, pressed[3];
         grown.raised[i] = raised(step, i, nodes[i], &slope);
-        grown.middle[i] = grown.width[i] = nodes[i];
+        grown.middle[i] = larger(nodes[i], 0.0); /* one of a group may be open still */
+        grown.width[i] = nodes[i];
         if (!grows_on_rest(step))
             continue;
         press(step, i, nodes[i], pressed);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a single contact remembers (contact/memory.h) along the steps of its contact phase. It
+/* What a contact remembers (contact/memory.h) along the steps of its contact phase. It
  * follows the cubic through the nodes exactly, so that the force at a node depends linearly on the
  * indentations d, or on their d^(3/2), of all nodes. */
 #ifndef PERCUSS_IMPACT_MEMORY_STEP_H
@@ -44,8 +44,8 @@ void memory_step_create(struct memory_step *step, const struct contact_law *law)
 /* Makes sure of a level. False: out of memory. */
 bool memory_step_prepare(struct memory_step *step, int level, struct arena *arena);
 
-/* The contact begins, or closes again: since the last step its surface has recovered freely. True:
- * and is not at rest. */
+/* A contact phase begins: since the last step the surface has recovered freely. True: and is not at
+ * rest. */
 bool memory_step_begin(struct memory_step *step, double time);
 
 /* A step of a prepared level, without a turn yet. */

@@ -79,14 +79,22 @@ static const struct profile_limits several_compared = {0.6, 30.0, 30.0, 0.02, 0.
  * leaves some 0.06 of the square of its share in the impulse. */
 static const double PARTING = 1.0;
 
-/* Whether a scene has several contacts and none yields: yielding depends on the largest force and
- * needs more care. */
+static bool any_lossy(const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->lossy)
+            return true;
+    return false;
+}
+
+/* Whether a scene has several contacts, none of which yields or is lossy: yielding depends on the
+ * largest force, a loss on the way, and both need more care. */
 static bool is_elastic_group(const struct scene *scene)
 {
     for (size_t c = 0; c < scene->contacts; c++)
         if (scene->laws[c].operations->curve)
             return false;
-    return scene->contacts > 1;
+    return scene->contacts > 1 && !any_lossy(scene);
 }
 
 static struct step_limits step_limits_make(const struct scene *scene, double accuracy,
@@ -99,7 +107,7 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
         limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
-    double event = scene->laws[0].operations->lossy ? PARTING : limits->event;
+    double event = any_lossy(scene) ? PARTING : limits->event;
     return (struct step_limits){
         .roughness = smaller(limits->roughest, limits->roughness * root * root),
         .event_share = smaller(limits->longest_event, event * half),
@@ -492,7 +500,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 {
     struct march *march = &run->march;
     if (run->step.way)
-        way_step_begin(run->step.way, time);
+        way_contact_touch(&run->step.way->contact[contact], time);
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
     run->projects = step_limits_open(&run->limits, &march->scene, contact, &run->scales[contact]);
     run->longest[contact] =
@@ -609,6 +617,15 @@ static double step_roughness(const struct modal_run *run)
     return worst;
 }
 
+/* Whether the force of any contact that depends on its way bends. */
+NOT_INLINE static bool any_bends(const struct modal_run *run)
+{
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (way_contact_bends(&run->step.way->contact[c]))
+            return true;
+    return false;
+}
+
 /* The only closed contact ends inside the step: the step is cut there, as its force has no
  * derivative there. While several are closed they open and close all the time, mostly with little
  * force: all of them are in the equations throughout, and roughness alone decides. */
@@ -617,7 +634,7 @@ static bool has_event(const struct modal_run *run)
     size_t closed = 0;
     bool ends = false;
     if (run->step.way)
-        return way_step_bends(run->step.way);
+        return any_bends(run);
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         closed += run->march.closed[c];
         ends = ends || (run->march.closed[c] && !(run->step.end_indentation[c] > 0.0));
@@ -667,9 +684,38 @@ NOT_INLINE static void keep_slide(struct modal_run *run, size_t contact, double 
 static double end_of(const struct modal_run *run, const struct step_values *step, double start,
                      double h)
 {
-    if (run->step.way && run->step.way->parted)
-        return run->step.way->parted_at;
     return start + h * (run->projects ? step_ends_release : step_values_release)(step);
+}
+
+/* The books of a contact whose force depends on its way: it may part before its indentation ends,
+ * while other contacts push on. */
+NOT_INLINE static void keep_way(struct modal_run *run, size_t c, double start)
+{
+    const struct way_contact *way = &run->step.way->contact[c];
+    const struct motion *motion = &run->march.outcome->motion;
+    struct track *track = &run->march.outcome->tracks[c];
+    way_step_take(run->step.way, c, start, run->step.end_force);
+    if (!run->march.closed[c])
+        return;
+    track->largest_force = way->largest;
+    track->open.start = way->touched_at;
+    if (way->parted_at >= start)
+        track->open.gap_rate_after =
+            motion->gap_rate[c] -
+            run->march.scene.gap_acceleration[c] * (motion->time - way->parted_at);
+}
+
+static bool is_lossy(const struct modal_run *run, size_t contact)
+{
+    return run->step.way && run->march.scene.laws[contact].operations->lossy;
+}
+
+/* Such a contact has parted, and its indentation ends. */
+static void close_way(struct modal_run *run, size_t c)
+{
+    march_close(&run->march, c, run->step.way->contact[c].parted_at,
+                run->march.outcome->tracks[c].open.gap_rate_after);
+    find_finest(run);
 }
 
 /* The books of one contact after a step: sub-impacts begin, go on, end (also all of it within one
@@ -684,28 +730,18 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     if (!run->march.closed[c] && (end > 0.0 || bears(run, c)))
         open_contact(run, c, start + h * step_values_closing(&step),
                      larger(run->now[c].rate, after.rate));
+    if (is_lossy(run, c))
+        keep_way(run, c, start);
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (run->march.scene.frictions)
             keep_slide(run, c, h);
-        if (end <= 0.0)
+        if (end <= 0.0 && is_lossy(run, c))
+            close_way(run, c);
+        else if (end <= 0.0)
             close_contact(run, c, end_of(run, &step, start, h));
     }
     run->now[c] = after;
-}
-
-/* The books of a contact whose force depends on its way: it may part before its indentation ends.
- */
-NOT_INLINE static void keep_way(struct modal_run *run, double start, int level)
-{
-    struct way_step *way = run->step.way;
-    struct track *track = &run->march.outcome->tracks[0];
-    const struct step_values step = {run->now[0].indentation, run->step.end_indentation[0],
-                                     run->step.indentation[0]};
-    way_step_take(way, start, step_values_after(&step, step_length(level)).rate, step.nodes,
-                  run->step.force[0]);
-    track->largest_force = way->largest;
-    track->open.start = way->touched_at;
 }
 
 /* Corrects the forces at the nodes where contacts begin or end, and at a single law's knots. */
@@ -733,8 +769,6 @@ static void accept(struct modal_run *run, int level)
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
     run->march.damping += run->step.loss;
     outcome->steps++;
-    if (run->step.way)
-        keep_way(run, start, level);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         keep_books(run, c, start, step_length(level));
     for (size_t r = run->march.scene.contacts; r < run->march.scene.rows; r++) {
@@ -783,6 +817,9 @@ static void begin_phase(struct modal_run *run, size_t contact)
         run->now[c] = (struct contact_start){c == contact ? 0.0 : smaller(d, 0.0), rate, 0.0, 0.0};
         if (c == contact)
             open_contact(run, c, motion->time, rate);
+        if (run->step.way)
+            way_contact_begin(&run->step.way->contact[c], motion->time, run->now[c].indentation,
+                              c == contact);
     }
     if (run->march.scene.frictions)
         begin_friction(run);
@@ -821,14 +858,15 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
     return end;
 }
 
-/* At the horizon. A contact may have parted, though its surfaces have not come back
+/* At the horizon. Contacts may have parted, though their surfaces have not come back
  * yet: without vibration nothing brings them together again. */
 static enum percuss_end_reason end_at_horizon(struct modal_run *run)
 {
-    const struct way_step *way = run->step.way;
-    if (!way || !way->parted)
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (run->march.closed[c] && is_lossy(run, c) && run->step.way->contact[c].parted)
+            close_way(run, c);
+    if (march_in_contact(&run->march))
         return PERCUSS_END_IN_CONTACT;
-    close_contact(run, 0, way->parted_at);
     return run->march.scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(&run->march);
 }
 
@@ -903,13 +941,14 @@ static void end_friction(struct modal_run *run)
     }
 }
 
-/* A contact whose force depends on its way has lost the work on it, but for what it gives back. */
+/* Contacts whose force depends on their way have lost the work on it, but for what they give back.
+ */
 static void end_way(struct modal_run *run)
 {
     if (!run->step.way)
         return;
-    run->march.outcome->relaxed = way_step_lost(run->step.way, run->march.indentation[0]);
-    run->march.force = &run->step.way->now;
+    run->march.outcome->relaxed = way_step_lost(run->step.way, run->march.indentation);
+    run->march.force = run->step.way->present;
 }
 
 /* The window ends: contacts under load yield up to here, and all store their indentation. */

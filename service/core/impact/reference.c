@@ -908,7 +908,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     static const struct march_method method = {
         .flies = true, .contact_phase = solve, .end = end_march};
     for (size_t c = 0; c < scene->contacts; c++)
-        if (contact_law_refuses(&scene->laws[c], scene->contacts, scene->frictions))
+        if (contact_law_refuses(&scene->laws[c], scene->frictions))
             return PERCUSS_INTERNAL;
     struct reference run = {.march = {.stated = scene,
                                       .outcome = outcome,

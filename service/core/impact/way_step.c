@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/extremes.h"
+#include "impact/coupling.h"
 #include "numeric/lagrange.h"
 #include "numeric/linear.h"
 
@@ -14,325 +15,306 @@
 enum { MAX_ITERATIONS = 40 };
 static const double ROUNDING = 1e-15;
 
+static struct way_slopes slopes_make(void)
+{
+    struct way_slopes slopes;
+    double place[WAY_PLACES] = {0.0};
+    memcpy(place + 1, collocation.node, sizeof collocation.node);
+    place[WAY_PLACES - 1] = 1.0;
+    for (int i = 0; i < STEP_POINTS; i++)
+        lagrange_slopes(place, WAY_PLACES, place[i + 1], slopes.by[i]);
+    return slopes;
+}
+
+static bool any_lossy(const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->lossy)
+            return true;
+    return false;
+}
+
 bool way_step_create(struct way_step **step, const struct scene *scene, struct arena *arena)
 {
-    const struct contact_law *law = &scene->laws[0];
+    size_t n = scene->contacts, unknowns = n * STEP_POINTS;
     *step = NULL;
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (scene->laws[c].operations->lossy && scene->contacts > 1)
-            return false;
-    if (!law->operations->lossy)
+    if (!any_lossy(scene))
         return true;
-    struct way_step *made = *step = arena_take(arena, 1, sizeof *made);
+    struct way_step *made = arena_take(arena, 1, sizeof *made);
     if (!made)
         return false;
-    made->law = law;
-    made->compliance = scene->residual[0];
-    if (!law->operations->remembers)
-        return true;
-    made->memory = arena_take(arena, 1, sizeof *made->memory);
-    if (made->memory)
-        memory_step_create(made->memory, law);
-    return made->memory != NULL;
+    made->scene = scene;
+    made->slopes = slopes_make();
+    made->contact = arena_take(arena, n, sizeof *made->contact);
+    made->target = arena_take(arena, 3 * n, sizeof *made->target);
+    made->matrix = arena_reserve(arena, unknowns * unknowns, sizeof(double));
+    made->present = arena_take(arena, n, sizeof *made->present);
+    if (!made->contact || !made->target || !made->matrix || !made->present)
+        return false;
+    made->approach = made->target + n;
+    made->missing = made->approach + n;
+    *step = made;
+    for (size_t c = 0; c < n; c++)
+        if (!way_contact_create(&made->contact[c], &scene->laws[c],
+                                scene->residual[c * (scene->rows + 1)], arena))
+            return false;
+    return true;
+}
+
+static double residual_of(const struct way_step *step, size_t a, size_t b)
+{
+    return step->scene->residual[a * step->scene->rows + b];
 }
 
 bool way_step_prepare(struct way_step *step, int level, struct arena *arena)
 {
-    return !step->memory || memory_step_prepare(step->memory, level, arena);
+    size_t n = step->scene->contacts;
+    if (step->coupling[level])
+        return true;
+    struct way_block *blocks = arena_take(arena, n * n, sizeof *blocks);
+    if (!blocks)
+        return false;
+    for (size_t p = 0; p < n * n; p++) {
+        double by[STEP_POINTS][NODES];
+        coupling_between(step->scene, level, p / n, p % n, by);
+        for (int i = 0; i < STEP_POINTS; i++)
+            memcpy(blocks[p].by[i], by[i], sizeof by[i]);
+        blocks[p].by[NODES][NODES] = residual_of(step, p / n, p % n);
+    }
+    for (size_t c = 0; c < n; c++)
+        if (!way_contact_prepare(&step->contact[c], level, arena))
+            return false;
+    step->coupling[level] = blocks;
+    return true;
 }
 
-void way_step_begin(struct way_step *step, double time)
+static const struct way_block *block_of(const struct way_step *step, size_t a, size_t b)
 {
-    step->parted = step->memory && memory_step_begin(step->memory, time);
-    step->touched_at = step->parted_at = time;
-    step->largest = step->now = step->approach = 0.0;
+    return &step->coupling[step->level][a * step->scene->contacts + b];
 }
 
-/* ---- Rates ---- */
+/* ---- Motion under the forces ---- */
 
-enum { PLACES = STEP_POINTS + 1 }; /* start, nodes, end of a step */
-
-/* The place of a point of the step, or of its start, -1. */
-static double place_of(int point)
+static bool bears(const struct way_contact *contact)
 {
-    return point < 0 ? 0.0 : point < NODES ? collocation.node[point] : 1.0;
+    bool any = false;
+    for (int i = 0; i < STEP_POINTS; i++)
+        any = any || contact->force[i] != 0.0;
+    return any;
 }
 
-/* Slopes at a point of the polynomial through all places: under a cubic force a body moves along
- * one of the fifth degree. */
-static void differentiate(int point, double by[PLACES])
+/* Indentations of a contact by the forces of all; `approach` becomes the bodies'. */
+static void place_contact(struct way_step *step, size_t a, double approach[STEP_POINTS])
 {
-    double place[PLACES];
-    for (int j = 0; j < PLACES; j++)
-        place[j] = place_of(j - 1);
-    lagrange_slopes(place, PLACES, place_of(point), by);
+    double *d = step->contact[a].indentation;
+    memcpy(d, step->target[a], sizeof step->target[a]);
+    memcpy(approach, step->approach[a], sizeof step->approach[a]);
+    for (size_t b = 0; b < step->scene->contacts; b++) {
+        const struct way_block *block = block_of(step, a, b);
+        const double *force = step->contact[b].force;
+        if (!bears(&step->contact[b]))
+            continue;
+        for (int i = 0; i < STEP_POINTS; i++) {
+            double taken = 0.0;
+            for (int j = 0; j < STEP_POINTS; j++)
+                taken += block->by[i][j] * force[j];
+            d[i] -= taken;
+            approach[i] -= taken - residual_of(step, a, b) * force[i];
+        }
+    }
+}
+
+/* The rates of an approach. */
+static void find_rates(const struct way_step *step, size_t a, const double approach[STEP_POINTS],
+                       double rate[STEP_POINTS])
+{
+    double h = step_length(step->level);
+    for (int i = 0; i < STEP_POINTS; i++) {
+        const double *by = step->slopes.by[i];
+        rate[i] = by[0] * step->contact[a].approach;
+        for (int j = 0; j < STEP_POINTS; j++)
+            rate[i] += by[j + 1] * approach[j];
+        rate[i] /= h;
+    }
+}
+
+/* ---- Newton's system ---- */
+
+/* What the forces have more than the laws. */
+static void find_excess(struct way_step *step)
+{
+    for (size_t a = 0; a < step->scene->contacts; a++) {
+        struct way_contact *contact = &step->contact[a];
+        double approach[STEP_POINTS], rate[STEP_POINTS] = {0.0}, force[STEP_POINTS];
+        place_contact(step, a, approach);
+        if (contact->law->operations->moving)
+            find_rates(step, a, approach, rate);
+        way_contact_forces(contact, rate, force);
+        for (int i = 0; i < STEP_POINTS; i++)
+            step->missing[a][i] = contact->force[i] - force[i];
+    }
+}
+
+/* Slopes of a contact's law by the approaches at all points: those by the indentations, and by the
+ * rates, which the approaches make up. `rates` becomes the second part. */
+static void find_slopes(const struct way_step *step, const struct way_contact *contact,
+                        struct way_block *all, struct way_block *rates)
+{
+    double h = step_length(step->level);
+    for (int i = 0; i < STEP_POINTS; i++)
+        for (int j = 0; j < STEP_POINTS; j++) {
+            rates->by[i][j] = contact->viscosity[i] * step->slopes.by[i][j + 1] / h;
+            all->by[i][j] = contact->slope[i][j] + rates->by[i][j];
+        }
+}
+
+/* The excess of contact a by the forces of b. */
+static void fill_pair(struct way_step *step, size_t a, size_t b, const struct way_block *all,
+                      const struct way_block *rates)
+{
+    size_t size = step->scene->contacts * STEP_POINTS;
+    const struct way_block *coupling = block_of(step, a, b);
+    double residual = residual_of(step, a, b);
+    for (int i = 0; i < STEP_POINTS; i++) {
+        double *row = step->matrix + (a * STEP_POINTS + (size_t)i) * size + b * STEP_POINTS;
+        for (int j = 0; j < STEP_POINTS; j++) {
+            double sum = a == b && i == j ? 1.0 : 0.0;
+            for (int l = 0; l < STEP_POINTS; l++)
+                sum += all->by[i][l] * coupling->by[l][j];
+            row[j] = sum - rates->by[i][j] * residual;
+        }
+    }
+}
+
+static void fill_matrix(struct way_step *step)
+{
+    size_t n = step->scene->contacts;
+    for (size_t a = 0; a < n; a++) {
+        struct way_block all, rates;
+        find_slopes(step, &step->contact[a], &all, &rates);
+        for (size_t b = 0; b < n; b++)
+            fill_pair(step, a, b, &all, &rates);
+    }
 }
 
 /* ---- A step ---- */
 
-static double largest_of(const double *values, int count)
+static double largest_of(const double values[STEP_POINTS])
 {
     double largest = 0.0;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < STEP_POINTS; i++)
         largest = larger(largest, fabs(values[i]));
     return largest;
 }
 
-/* d at a point that is taken by the force at another one: the end has the compliance of its own. */
-static double taken_by(const struct way_step *step, const struct way_problem *problem, int point,
-                       int by)
-{
-    if (by < NODES)
-        return problem->coupling[point][by];
-    return point == NODES ? step->compliance : 0.0;
-}
+/* The largest change of a force, the largest force, and that of rounded approaches. */
+struct way_progress {
+    double change, force, rounding;
+};
 
-/* Of the approach: nothing but the compliance is between it and d. */
-static double without_compliance(const struct way_step *step, const struct way_problem *problem,
-                                 int point, int by)
+static struct way_progress improve(struct way_step *step)
 {
-    return taken_by(step, problem, point, by) - (point == by ? step->compliance : 0.0);
-}
-
-/* ---- Laws that remember ---- */
-
-/* Newton's system for the indentations. */
-static void find_excess(const struct way_step *step, const struct way_problem *problem,
-                        double matrix[STEP_POINTS * STEP_POINTS], double excess[STEP_POINTS])
-{
-    for (int i = 0; i < STEP_POINTS; i++) {
-        excess[i] = step->indentation[i] - problem->target[i];
-        for (int j = 0; j < STEP_POINTS; j++)
-            matrix[i * STEP_POINTS + j] = i == j;
-        for (int l = 0; l < STEP_POINTS; l++) {
-            double taken = taken_by(step, problem, i, l);
-            excess[i] += taken * step->force[l];
-            for (int j = 0; j < STEP_POINTS; j++)
-                matrix[i * STEP_POINTS + j] += taken * step->slope[l][j];
-        }
-    }
-}
-
-/* Newton's method for them, with the turn where it is. */
-static bool solve_memory(struct way_step *step, const struct way_problem *problem,
-                         unsigned long *iterations)
-{
-    double rounding = ROUNDING * largest_of(problem->target, STEP_POINTS);
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double matrix[STEP_POINTS * STEP_POINTS], change[STEP_POINTS];
-        memory_step_forces(step->memory, step->indentation, step->force, step->slope);
-        find_excess(step, problem, matrix, change);
-        ++*iterations;
-        if (!linear_solve(STEP_POINTS, matrix, change) ||
-            !isfinite(largest_of(change, STEP_POINTS)))
-            return false;
-        for (int i = 0; i < STEP_POINTS; i++)
-            step->indentation[i] -= change[i];
-        double most = largest_of(change, STEP_POINTS);
-        if (most > problem->last * largest_of(step->indentation, STEP_POINTS) && most > rounding)
-            continue;
+    struct way_progress progress = {0.0, 0.0, 0.0};
+    for (size_t a = 0; a < step->scene->contacts; a++) {
+        struct way_contact *contact = &step->contact[a];
+        double stiffest = 0.0;
         for (int i = 0; i < STEP_POINTS; i++) {
-            for (int j = 0; j < STEP_POINTS; j++)
-                step->force[i] -= step->slope[i][j] * change[j];
-            step->force[i] = larger(step->force[i], 0.0);
+            contact->force[i] -= step->missing[a][i];
+            stiffest = larger(stiffest, fabs(contact->slope[i][i]));
         }
+        progress.change = larger(progress.change, largest_of(step->missing[a]));
+        progress.force = larger(progress.force, largest_of(contact->force));
+        progress.rounding =
+            larger(progress.rounding, ROUNDING * stiffest * largest_of(step->target[a]));
+    }
+    return progress;
+}
+
+/* The indentations of forces that push. */
+static void keep_pushing(struct way_step *step)
+{
+    double approach[STEP_POINTS];
+    for (size_t a = 0; a < step->scene->contacts; a++)
+        for (int i = 0; i < STEP_POINTS; i++)
+            step->contact[a].force[i] = larger(step->contact[a].force[i], 0.0);
+    for (size_t a = 0; a < step->scene->contacts; a++)
+        place_contact(step, a, approach);
+}
+
+static bool solve_forces(struct way_step *step, double last, unsigned long *iterations)
+{
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        find_excess(step);
+        fill_matrix(step);
+        ++*iterations;
+        if (!linear_solve(step->scene->contacts * STEP_POINTS, step->matrix, step->missing[0]))
+            return false;
+        struct way_progress progress = improve(step);
+        if (!isfinite(progress.change))
+            return false;
+        if (progress.change > last * progress.force && progress.change > progress.rounding)
+            continue;
+        keep_pushing(step);
         return true;
     }
     return false;
 }
 
-/* The force behind the turn differs little from that of a contact that grows: each round shifts the
+static void start_forces(struct way_step *step, double (*const indentation)[NODES])
+{
+    static const double at_rest[STEP_POINTS] = {0.0};
+    for (size_t a = 0; a < step->scene->contacts; a++) {
+        struct way_contact *contact = &step->contact[a];
+        memcpy(contact->indentation, indentation[a], sizeof indentation[a]);
+        contact->indentation[NODES] = collocation_last(indentation[a]);
+        way_contact_start(contact, step->level);
+        way_contact_forces(contact, at_rest, contact->force);
+    }
+}
+
+/* The force behind a turn differs little from that of a contact that grows: each round shifts the
  * turn by far less than the one before. */
 enum { TURN_ROUNDS = 3 };
 
-static bool follow_memory(struct way_step *step, const struct way_problem *problem,
-                          unsigned long *iterations)
+/* Whether a contact's forces are not those with its turn, or without one that is gone. */
+static bool turn(struct way_step *step)
 {
-    memory_step_start(step->memory, step->level);
-    if (!solve_memory(step, problem, iterations))
+    bool any = false;
+    for (size_t a = 0; a < step->scene->contacts; a++)
+        any = way_contact_turns(&step->contact[a]) || any;
+    return any;
+}
+
+bool way_step_solve(struct way_step *step, int level, double (*const indentation)[NODES],
+                    double last, unsigned long *iterations)
+{
+    step->level = level;
+    start_forces(step, indentation);
+    if (!solve_forces(step, last, iterations))
         return false;
-    /* while the forces are those without a turn, or with the one that is gone */
-    for (int round = 0; round < TURN_ROUNDS; round++) {
-        if (!memory_step_turns(step->memory, step->indentation))
-            break;
-        if (!solve_memory(step, problem, iterations))
+    for (int round = 0; round < TURN_ROUNDS && turn(step); round++)
+        if (!solve_forces(step, last, iterations))
             return false;
-    }
-    for (int i = 0; i < NODES; i++)
-        step->stiffness[i] = step->slope[i][i];
     return true;
-}
-
-/* ---- Laws that have the rate in them ---- */
-
-/* The approaches' rates at the points: without force, and less by a force, 1/(N s). */
-struct rates {
-    double free[STEP_POINTS], by[STEP_POINTS][NODES];
-};
-
-static struct rates find_rates(const struct way_step *step, const struct way_problem *problem)
-{
-    double h = step_length(step->level);
-    struct rates rates = {{0.0}, {{0.0}}};
-    for (int i = 0; i < STEP_POINTS; i++) {
-        double slope[PLACES];
-        differentiate(i, slope);
-        rates.free[i] = slope[0] * step->approach / h;
-        for (int l = 0; l < STEP_POINTS; l++) {
-            rates.free[i] += slope[l + 1] * problem->target[l] / h;
-            for (int j = 0; j < NODES; j++)
-                rates.by[i][j] += slope[l + 1] * without_compliance(step, problem, l, j) / h;
-        }
-    }
-    return rates;
-}
-
-/* Newton's system for the forces: indentations, approaches' rates, the law's forces. */
-static void find_lack(struct way_step *step, const struct way_problem *problem,
-                      const struct rates *rates, double matrix[STEP_POINTS * STEP_POINTS],
-                      double lack[STEP_POINTS])
-{
-    for (int i = 0; i < STEP_POINTS; i++) {
-        double d = problem->target[i], rate = rates->free[i], viscosity;
-        for (int j = 0; j < STEP_POINTS; j++) {
-            d -= taken_by(step, problem, i, j) * step->force[j];
-            rate -= j < NODES ? rates->by[i][j] * step->force[j] : 0.0;
-        }
-        step->indentation[i] = d;
-        lack[i] = step->force[i] - step->law->operations->moving(step->law, d, rate,
-                                                                 &step->stiffness[i], &viscosity);
-        for (int j = 0; j < STEP_POINTS; j++) {
-            double by = step->stiffness[i] * taken_by(step, problem, i, j);
-            by += j < NODES ? viscosity * rates->by[i][j] : 0.0;
-            matrix[i * STEP_POINTS + j] = by + (i == j);
-        }
-    }
-}
-
-static bool follow_rate(struct way_step *step, const struct way_problem *problem,
-                        unsigned long *iterations)
-{
-    const struct rates rates = find_rates(step, problem);
-    double rounding = ROUNDING * largest_of(problem->target, STEP_POINTS);
-    for (int i = 0; i < STEP_POINTS; i++)
-        step->force[i] = contact_law_force(step->law, step->indentation[i], &step->stiffness[i]);
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double matrix[STEP_POINTS * STEP_POINTS], change[STEP_POINTS];
-        find_lack(step, problem, &rates, matrix, change);
-        ++*iterations;
-        if (!linear_solve(STEP_POINTS, matrix, change))
-            return false;
-        double most = largest_of(change, STEP_POINTS);
-        if (!isfinite(most))
-            return false;
-        for (int i = 0; i < STEP_POINTS; i++) {
-            step->force[i] -= change[i];
-            for (int j = 0; j < STEP_POINTS; j++)
-                step->indentation[i] += taken_by(step, problem, i, j) * change[j];
-        }
-        if (most > problem->last * largest_of(step->force, STEP_POINTS) &&
-            most > rounding * largest_of(step->stiffness, STEP_POINTS))
-            continue;
-        for (int i = 0; i < STEP_POINTS; i++)
-            step->force[i] = larger(step->force[i], 0.0);
-        return true;
-    }
-    return false;
-}
-
-bool way_step_solve(struct way_step *step, const struct way_problem *problem,
-                    double indentation[NODES], double force[NODES], unsigned long *iterations)
-{
-    step->level = problem->level;
-    memcpy(step->indentation, indentation, NODES * sizeof *indentation);
-    step->indentation[NODES] = collocation_last(indentation);
-    if (!(step->memory ? follow_memory : follow_rate)(step, problem, iterations))
-        return false;
-    memcpy(indentation, step->indentation, NODES * sizeof *indentation);
-    memcpy(force, step->force, NODES * sizeof *force);
-    return true;
-}
-
-bool way_step_bends(const struct way_step *step)
-{
-    const struct way_taken ends = {.nodes = step->indentation,
-                                   .end = step->indentation[NODES],
-                                   .end_force = step->force[NODES]};
-    if (!step->parted && !(ends.end_force > 0.0))
-        return true;
-    return step->memory ? memory_step_renews(step->memory, &ends, step->parted)
-                        : step->parted && ends.end_force > 0.0;
 }
 
 /* ---- Accepted steps ---- */
 
-/* The work on the approach. */
-static double work_of(const struct way_step *step, const struct way_taken *taken)
+void way_step_take(struct way_step *step, size_t contact, double time, const double *end_force)
+{
+    struct way_contact *of = &step->contact[contact];
+    double approach = of->indentation[NODES];
+    for (size_t row = 0; row < step->scene->rows; row++)
+        approach += residual_of(step, contact, row) * end_force[row];
+    way_contact_take(of, &step->slopes, step->level, time, approach);
+    step->present[contact] = of->force[NODES];
+}
+
+double way_step_lost(const struct way_step *step, const double *indentation)
 {
     double sum = 0.0;
-    for (int i = 0; i < NODES; i++) {
-        double by[PLACES];
-        differentiate(i, by);
-        double rate = by[0] * step->approach;
-        for (int j = 0; j < STEP_POINTS; j++) {
-            double force = j < NODES ? taken->forces[j] : taken->end_force;
-            double d = j < NODES ? taken->nodes[j] : taken->end;
-            rate += by[j + 1] * (d + step->compliance * force);
-        }
-        sum += collocation.weight[i] * taken->forces[i] * rate;
-    }
+    for (size_t c = 0; c < step->scene->contacts; c++)
+        if (step->contact[c].law->operations->lossy)
+            sum += way_contact_lost(&step->contact[c], indentation[c], step->present[c]);
     return sum;
-}
-
-/* The share of the step after which no point bears a force: the line through the last two nodes
- * that do, up to the next point. */
-static double parting(const double forces[NODES])
-{
-    int last = NODES - 1;
-    while (last >= 0 && !(forces[last] > 0.0))
-        last--;
-    if (last < 0)
-        return 0.0;
-    double from = collocation.node[last];
-    double until = last + 1 < NODES ? collocation.node[last + 1] : 1.0;
-    if (last == 0 || !(forces[last - 1] > forces[last]))
-        return from;
-    double falls = (forces[last - 1] - forces[last]) / (from - collocation.node[last - 1]);
-    return smaller(from + forces[last] / falls, until);
-}
-
-static void note_force(struct way_step *step, const struct way_taken *taken)
-{
-    bool bears = taken->end_force > 0.0 || largest_of(taken->forces, NODES) > 0.0;
-    if (!bears && step->largest == 0.0)
-        step->touched_at = step->parted_at = taken->time + step_length(taken->level);
-    step->work += work_of(step, taken);
-    step->now = taken->end_force;
-    step->approach = taken->end + step->compliance * step->now;
-    if (bears)
-        step->largest = larger(step->largest, collocation_peak(taken->forces));
-    if (!(taken->end_force > 0.0) && (bears || !step->parted))
-        step->parted_at = taken->time + step_length(taken->level) * parting(taken->forces);
-    step->parted = !(taken->end_force > 0.0);
-}
-
-void way_step_take(struct way_step *step, double time, double end_rate, const double nodes[NODES],
-                   const double forces[NODES])
-{
-    const struct way_taken taken = {.time = time,
-                                    .level = step->level,
-                                    .nodes = nodes,
-                                    .forces = forces,
-                                    .end = step->indentation[NODES],
-                                    .end_rate = end_rate,
-                                    .end_force = step->force[NODES]};
-    note_force(step, &taken);
-    if (step->memory)
-        memory_step_take(step->memory, &taken, step->parted);
-}
-
-double way_step_lost(const struct way_step *step, double indentation)
-{
-    double series = 0.5 * step->compliance * step->now * step->now;
-    return step->work - series - step->law->operations->stored(step->law, indentation);
 }

@@ -1,67 +1,54 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A single contact without micro-slip whose force depends on its way, on the steps of its contact
- * phase: one that remembers (impact/memory_step.h), or whose law has the rate of the indentation in
- * it. The force at a point of the step depends on the indentations at all of them.
+/* The equations of a step of contacts of which one or more have a force that depends on their way
+ * (impact/way_contact.h): for contact a at a point i of the step, a node or its end,
  *
- * The rate is that of the approach, d + C F with the series compliance C: that of d alone would not
- * be defined by the present state, and with a negative C would grow without bounds. */
+ *   d_ai = target_ai - sum_bj coupling_ab,ij F_bj       F_a = law_a(d_a, rates of the approach)
+ *
+ * by Newton's method for the forces of all contacts at all points. */
 #ifndef PERCUSS_IMPACT_WAY_STEP_H
 #define PERCUSS_IMPACT_WAY_STEP_H
 
-#include "base/arena.h"
-#include "impact/memory_step.h"
 #include "impact/scene.h"
+#include "impact/way_contact.h"
+
+/* Reduction of an indentation at a point by a unit force at another one, m/N: the end has the
+ * residual flexibility alone. */
+struct way_block {
+    double by[STEP_POINTS][STEP_POINTS];
+};
 
 struct way_step {
-    const struct contact_law *law;
-    struct memory_step *memory; /* of a law that remembers, else NULL */
-    double compliance;          /* in series, m/N */
-    double approach;            /* d + compliance F where the step begins, m */
-    int level;
-    double indentation[STEP_POINTS], force[STEP_POINTS];
-    double slope[STEP_POINTS][STEP_POINTS]; /* of a memory's forces by all indentations, N/m */
-    double stiffness[STEP_POINTS];          /* of the forces by their own */
-    bool parted;                            /* no force since, */
-    double touched_at, parted_at;           /* the first force, and the end of the last one, s */
-    double largest;                         /* force since the touch, N */
-    double now;                             /* force at the present, N */
-    double work;                            /* of all forces on the approach, J */
+    const struct scene *scene;
+    struct way_contact *contact; /* [contacts] */
+    struct way_slopes slopes;
+    /* of the step to be solved, [contact]: d and the approach at the points without the contacts'
+     * forces */
+    double (*target)[STEP_POINTS], (*approach)[STEP_POINTS];
+    double (*missing)[STEP_POINTS];          /* [contact]: what Newton's system is solved for */
+    double *matrix;                          /* (contacts STEP_POINTS)^2 */
+    double *present;                         /* [contact]: forces where the step begins, N */
+    struct way_block *coupling[STEP_LEVELS]; /* [contacts^2]; NULL: not yet */
+    int level;                               /* of the step just solved */
 };
 
-/* NULL: the force of each contact depends on its indentation alone. False: out of memory, or one of
- * them is refused (contact_law_refuses), which callers see to. */
+/* NULL: the force of each contact depends on its indentation alone. False: out of memory. */
 bool way_step_create(struct way_step **step, const struct scene *scene, struct arena *arena);
 
-/* Makes sure of a level. False: out of memory. */
+/* Makes sure of a level, which the scene's tables have. False: out of memory. */
 bool way_step_prepare(struct way_step *step, int level, struct arena *arena);
 
-/* The contact begins, or closes again. */
-void way_step_begin(struct way_step *step, double time);
+/* Solves a step of a prepared level from starting values of the indentations at the nodes,
+ * [contact], to a relative change of the forces below `last`. False: no solution. */
+bool way_step_solve(struct way_step *step, int level, double (*const indentation)[NODES],
+                    double last, unsigned long *iterations);
 
-/* The equations of a step: d_i + sum_j coupling_ij F_j
- * = target_i at the nodes, at the end with the compliance's part beside them. To a relative change
- * of d below `last`. */
-struct way_problem {
-    int level;
-    double last;
-    const double (*coupling)[NODES]; /* [STEP_POINTS] */
-    const double *target;            /* [STEP_POINTS] */
-};
+/* Accepts the step just solved, which began at `time`, for a contact of a lossy law; the forces of
+ * all rows at its end. */
+void way_step_take(struct way_step *step, size_t contact, double time, const double *end_force);
 
-/* From starting values at the nodes, which become the solution. False: no solution. */
-bool way_step_solve(struct way_step *step, const struct way_problem *problem,
-                    double indentation[NODES], double force[NODES], unsigned long *iterations);
-
-/* Whether the step just solved has a kink that the next one should begin with. */
-bool way_step_bends(const struct way_step *step);
-
-/* What the contact has taken of the work so far, less what it gives back at an indentation, J. */
-double way_step_lost(const struct way_step *step, double indentation);
-
-/* Accepts the step just solved, which began at `time` and ends with this rate. */
-void way_step_take(struct way_step *step, double time, double end_rate, const double nodes[NODES],
-                   const double forces[NODES]);
+/* What all of these have lost so far, with these indentations, J. */
+double way_step_lost(const struct way_step *step, const double *indentation);
 
 #endif

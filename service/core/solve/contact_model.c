@@ -181,7 +181,7 @@ static enum percuss_status find_own(struct problem *problem, const struct body_s
     if (status)
         return status;
     struct contact_law law = contact_law_own(own, curves);
-    const char *why = contact_law_refuses(&law, problem->contact_count, rubbing(problem));
+    const char *why = contact_law_refuses(&law, rubbing(problem));
     if (why)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: the law %s, which has a dissipation: %s (another "
@@ -271,7 +271,7 @@ static const char *why_lossless(const struct problem *problem)
     if (problem->contact_count == 1 && rubs == 0 && !states_loss(problem, 0))
         return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
-    return contact_law_refuses(&law, problem->contact_count, rubs);
+    return contact_law_refuses(&law, rubs);
 }
 
 /* The law of the only contact, where its bodies state a loss. */

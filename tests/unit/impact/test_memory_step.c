@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/core/impact/way_step.c and memory_step.c, contact/memory.c and
+/* Mirrors service/core/impact/way_contact.c and memory_step.c, contact/memory.c and
  * contact/recovery.c: viscoelastic contacts against Prony's series where the indentation is held,
  * against the circles of the contact integrated one by one (Ting's rule without its parabola, and
  * free circles), and their energy. */
-#include "impact/contact_step.h"
+#include "impact/way_contact.h"
 #include "unit/impact/one_by_one.h"
 #include "unit/impact/toy_scene.h"
 
@@ -15,29 +15,26 @@ static void a_held_contact_relaxes(void **state)
     (void)state;
     static const struct relaxation of = {2, {0.3, 0.4}, {0.2, 3.0}};
     const double held[STEP_POINTS] = {1.7, 1.7, 1.7, 1.7, 1.7};
-    struct toy toy;
-    struct way_step *step;
-    toy_init(&toy, 1);
-    toy.laws[0] = contact_law_viscoelastic(2.0, &of);
-    assert_true(way_step_create(&step, &toy.scene, &toy.arena));
+    static const struct way_slopes none = {{{0.0}}};
+    struct arena arena = {0};
+    struct way_contact contact;
+    const struct contact_law law = contact_law_viscoelastic(2.0, &of);
+    assert_true(way_contact_create(&contact, &law, 0.0, &arena));
     double time = 0.0;
     for (int level = 6; level >= 0; level--) {
-        const double none[STEP_POINTS][NODES] = {{0}};
-        const struct way_problem problem = {level, 1e-9, none, held};
-        double force[NODES], d[NODES];
-        unsigned long iterations = 0;
-        memcpy(d, held, sizeof d);
-        assert_true(way_step_prepare(step, level, &toy.arena));
-        assert_true(way_step_solve(step, &problem, d, force, &iterations));
+        assert_true(way_contact_prepare(&contact, level, &arena));
+        memcpy(contact.indentation, held, sizeof held);
+        way_contact_start(&contact, level);
+        way_contact_forces(&contact, NULL, contact.force);
         for (int i = 0; i < STEP_POINTS; i++) {
             double t = time + step_length(level) * (i < NODES ? collocation.node[i] : 1.0);
             double g = 1.0 - 0.3 * -expm1(-t / 0.2) - 0.4 * -expm1(-t / 3.0);
-            measured("force", step->force[i], 2.0 * pow(1.7, 1.5) * g, 1e-14);
+            measured("force", contact.force[i], 2.0 * pow(1.7, 1.5) * g, 1e-14);
         }
-        way_step_take(step, time, 0.0, d, force);
+        way_contact_take(&contact, &none, level, time, 1.7);
         time += step_length(level);
     }
-    toy_free(&toy);
+    arena_release(&arena);
 }
 
 /* The modes of recovery are those of time_i m_i' = sum share m - m_i: differences of terms that
