@@ -174,20 +174,17 @@ void memory_rates_find(const struct memory_rates *rates, const double *state,
     const double *moves = now.surface.rate;
     find_rates(&memory, &now, k, d, rate);
     at->force = now.force;
+    at->stiffness = now.slope;
     at->pressed = now.pressed;
-    /* d' by the approach's rate less the compliance's, where the force changes also at the same d
-     */
-    double fades = 0.0;
+    at->fades = at->recedes = 0.0;
     if (now.force > 0.0) {
         double width = memory.shrinks ? memory.width : memory.left.reach, y = smaller(edge, width);
-        fades = -1.5 * k * sqrt(y) * (moves[0] + y * (moves[1] / 3.0 + y * moves[2] / 5.0));
+        at->fades = -1.5 * k * sqrt(y) * (moves[0] + y * (moves[1] / 3.0 + y * moves[2] / 5.0));
         for (size_t i = 0; !memory.shrinks && i < rates->modes.count; i++)
-            fades -= k * memory.relaxation->share[i] * rate[rates->modes.count + i];
+            at->fades -= k * memory.relaxation->share[i] * rate[rates->modes.count + i];
     }
-    at->turning =
-        (at->approach_rate - rates->compliance * fades) / (1.0 + rates->compliance * now.slope);
     if (!memory.shrinks && edge <= memory.left.reach)
-        at->turning -= moves[0] + edge * (moves[1] + edge * moves[2]);
+        at->recedes = moves[0] + edge * (moves[1] + edge * moves[2]);
 }
 
 void memory_rates_meet(struct memory_rates *rates, double *state, const struct memory_instant *at)

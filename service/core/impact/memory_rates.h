@@ -29,20 +29,22 @@ size_t memory_rates_size(const struct memory_rates *rates);
 void memory_rates_tolerate(const struct memory_rates *rates, double relative, double indentation,
                            double *absolute);
 
-/* An instant of the contact: the approach and its rate are given, and a starting value of the
- * indentation, which becomes d with d + compliance F(d) = approach. */
+/* An instant of the contact: the approach is given, and a starting value of the indentation, which
+ * becomes d with d + compliance F(d) = approach. */
 struct memory_instant {
-    double time, approach, approach_rate, indentation;
-    double force;   /* N */
-    double turning; /* > 0: while it grows its width grows, while it shrinks d does; m/s */
-    double pressed; /* > 0: the middle bears a force, m */
+    double time, approach, indentation;
+    double force, stiffness; /* N, N/m */
+    double fades;            /* the force's rate at the same indentation, N/s */
+    double recedes;          /* while it grows: rate of the free surface where it grows to, m/s */
+    double pressed;          /* > 0: the middle bears a force, m */
 };
 
 /* `rate` becomes the derivative of `state`. */
 void memory_rates_find(const struct memory_rates *rates, const double *state,
                        struct memory_instant *at, double *rate);
 
-/* `turning` or `pressed` change their signs at that instant: the state goes on from there. */
+/* The rate of d less `recedes`, or `pressed`, changes its sign at that instant: the state goes on
+ * from there. */
 void memory_rates_meet(struct memory_rates *rates, double *state, const struct memory_instant *at);
 
 #endif

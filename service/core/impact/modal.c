@@ -79,14 +79,6 @@ static const struct profile_limits several_compared = {0.6, 30.0, 30.0, 0.02, 0.
  * leaves some 0.06 of the square of its share in the impulse. */
 static const double PARTING = 1.0;
 
-static bool any_lossy(const struct scene *scene)
-{
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (scene->laws[c].operations->lossy)
-            return true;
-    return false;
-}
-
 /* Whether a scene has several contacts, none of which yields or is lossy: yielding depends on the
  * largest force, a loss on the way, and both need more care. */
 static bool is_elastic_group(const struct scene *scene)
@@ -94,7 +86,7 @@ static bool is_elastic_group(const struct scene *scene)
     for (size_t c = 0; c < scene->contacts; c++)
         if (scene->laws[c].operations->curve)
             return false;
-    return scene->contacts > 1 && !any_lossy(scene);
+    return scene->contacts > 1 && !scene_is_lossy(scene);
 }
 
 static struct step_limits step_limits_make(const struct scene *scene, double accuracy,
@@ -107,7 +99,7 @@ static struct step_limits step_limits_make(const struct scene *scene, double acc
         limits = profile == STEP_PROFILE_COMPARED ? &several_compared : &several;
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
-    double event = any_lossy(scene) ? PARTING : limits->event;
+    double event = scene_is_lossy(scene) ? PARTING : limits->event;
     return (struct step_limits){
         .roughness = smaller(limits->roughest, limits->roughness * root * root),
         .event_share = smaller(limits->longest_event, event * half),
@@ -700,9 +692,8 @@ NOT_INLINE static void keep_way(struct modal_run *run, size_t c, double start)
     track->largest_force = way->largest;
     track->open.start = way->touched_at;
     if (way->parted_at >= start)
-        track->open.gap_rate_after =
-            motion->gap_rate[c] -
-            run->march.scene.gap_acceleration[c] * (motion->time - way->parted_at);
+        track->open.gap_rate_after = motion->gap_rate[c] - run->march.scene.gap_acceleration[c] *
+                                                               (motion->time - way->parted_at);
 }
 
 static bool is_lossy(const struct modal_run *run, size_t contact)

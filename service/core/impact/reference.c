@@ -8,460 +8,13 @@
 #include <string.h>
 
 #include "base/extremes.h"
-#include "contact/friction.h"
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/flight_root.h"
 #include "impact/impact_scale.h"
 #include "impact/march.h"
-#include "impact/memory_rates.h"
-#include "impact/motion.h"
+#include "impact/reference_system.h"
 #include "numeric/ode.h"
-
-/* ---- The system for CVODE ---- */
-
-/* A whole scene as one system of ordinary differential equations, for a general solver.
- *
- * y: [rows] gaps, [rows] gap rates, [rows] impulses, 1 damping loss, of each contact with friction
- * its normal work in compression and in release, of a lossy law the work on the approach and its
- * memory, then every group's q and v. Root functions: per
- * contact the local indentation, the approach rate and, where a law yields, the indentation beyond
- * the elastic limit.
- *
- * Friction depends on the way: its force in a state is that of the cells walked from the last step
- * that was accepted to there, straight, which is a continuous function of the state. An accepted
- * step takes the walk to its end for good. */
-struct reference_system {
-    const struct scene *scene;
-    size_t rows;
-    size_t roots;                                           /* root functions of a contact */
-    size_t size;                                            /* of y */
-    struct motion motion;                                   /* a state unpacked */
-    double *approach, *rate, *indentation, *force, *matrix; /* [row], local; matrix: contacts^2 */
-    double *absolute;                                       /* [size] absolute tolerances */
-    double *absolute_force;        /* [contact] of a collision with all the energy, N */
-    double *duration;              /* [contact] of such a collision, s */
-    double *pressed;               /* [contact] approaches less the tangents' effect */
-    struct friction *taken;        /* [frictions]: histories up to the last accepted step */
-    struct friction *trial;        /* [frictions]: to the state of the last evaluation */
-    bool lossy;                    /* the only contact's law */
-    struct memory_rates *memory;   /* where it remembers, else NULL */
-    struct memory_instant present; /* of that, */
-    double *memory_rate;           /* and the rates of its state */
-};
-
-/* A root function must be finite; every indentation is smaller than this, m. */
-static const double ENDLESS = 1e3;
-
-/* Energy of bodies at rest, J, as tolerances must not be 0. */
-static const double LEAST_ENERGY = 1e-300;
-
-static size_t oscillator_count(const struct scene *scene)
-{
-    size_t count = 0;
-    for (size_t g = 0; g < scene->groups; g++)
-        count += scene->group[g].count;
-    return count;
-}
-
-/* Places in y: the damping loss, the works of friction `i`'s contact, of a lossy law, the
- * modes. */
-static size_t damping_loss(const struct reference_system *system)
-{
-    return 3 * system->rows;
-}
-
-static size_t normal_work(const struct reference_system *system, size_t i)
-{
-    return 3 * system->rows + 1 + 2 * i;
-}
-
-/* Its memory is behind it. */
-static size_t lossy_work(const struct reference_system *system)
-{
-    return normal_work(system, system->scene->frictions);
-}
-
-static size_t first_mode(const struct reference_system *system)
-{
-    size_t memory = system->memory ? memory_rates_size(system->memory) : 0;
-    return lossy_work(system) + (system->lossy ? 1 + memory : 0);
-}
-
-/* What a lossy law adds. False: out of memory. */
-static bool lossy_create(struct reference_system *system, struct arena *arena)
-{
-    const struct contact_law *law = &system->scene->laws[0];
-    system->lossy = law->operations->lossy;
-    if (!law->operations->remembers)
-        return true;
-    system->memory = arena_take(arena, 1, sizeof *system->memory);
-    if (!system->memory)
-        return false;
-    memory_rates_create(system->memory, law, system->scene->residual[0]);
-    system->memory_rate = arena_take(arena, memory_rates_size(system->memory), sizeof(double));
-    return system->memory_rate != NULL;
-}
-
-/* False: out of memory. */
-static bool reference_system_create(struct reference_system *system, const struct scene *scene,
-                                    struct arena *arena)
-{
-    size_t n = scene->contacts;
-    size_t rows = scene->rows;
-    *system = (struct reference_system){.scene = scene, .rows = rows, .roots = 2};
-    /* a third root function of laws that yield */
-    for (size_t c = 0; c < n; c++)
-        if (scene->laws[c].operations->curve || scene->laws[c].operations->remembers)
-            system->roots = 3;
-    if (!lossy_create(system, arena))
-        return false;
-    /* gaps, their rates, impulses, the loss, works and the modes */
-    system->size = first_mode(system) + 2 * oscillator_count(scene);
-    system->approach = arena_take(arena, rows, sizeof(double));
-    system->rate = arena_take(arena, rows, sizeof(double));
-    system->indentation = arena_take(arena, rows, sizeof(double));
-    system->force = arena_take(arena, rows, sizeof(double));
-    system->absolute_force = arena_take(arena, n, sizeof(double));
-    system->duration = arena_take(arena, n, sizeof(double));
-    system->pressed = arena_take(arena, n, sizeof(double));
-    system->matrix = arena_take(arena, n * n, sizeof(double));
-    system->absolute = arena_take(arena, system->size, sizeof(double));
-    return system->approach && system->rate && system->indentation && system->force &&
-           system->absolute_force && system->duration && system->pressed && system->matrix &&
-           system->absolute && motion_create(&system->motion, scene, arena);
-}
-
-static void reference_system_unpack(const struct reference_system *system, const double *y,
-                                    struct motion *motion)
-{
-    size_t n = system->rows;
-    memcpy(motion->gap, y, n * sizeof *y);
-    memcpy(motion->gap_rate, y + n, n * sizeof *y);
-    const double *next = y + first_mode(system);
-    for (size_t g = 0; g < system->scene->groups; g++) {
-        size_t count = system->scene->group[g].count;
-        memcpy(motion->q[g], next, count * sizeof *y);
-        memcpy(motion->v[g], next + count, count * sizeof *y);
-        next += 2 * count;
-    }
-}
-
-static void reference_system_pack(const struct reference_system *system,
-                                  const struct motion *motion, double *y)
-{
-    size_t n = system->rows;
-    memset(y, 0, system->size * sizeof *y);
-    memcpy(y, motion->gap, n * sizeof *y);
-    memcpy(y + n, motion->gap_rate, n * sizeof *y);
-    double *next = y + first_mode(system);
-    for (size_t g = 0; g < system->scene->groups; g++) {
-        size_t count = system->scene->group[g].count;
-        memcpy(next, motion->q[g], count * sizeof *y);
-        memcpy(next + count, motion->v[g], count * sizeof *y);
-        next += 2 * count;
-    }
-}
-
-/* ---- Friction ---- */
-
-/* Twice the cells of the modal method (friction_step.c), whose error goes with their inverse
- * square: the two methods do not share it. */
-static const double CELLS = 8.0;
-enum { FEWEST_CELLS = 64, MOST_CELLS = 512 };
-
-/* False: out of memory. */
-static bool frictions_create(struct reference_system *system, double accuracy, struct arena *arena)
-{
-    const struct scene *scene = system->scene;
-    size_t n = scene->frictions;
-    double cells = fmin(fmax(CELLS * pow(accuracy, -0.25), FEWEST_CELLS), MOST_CELLS);
-    if (n == 0)
-        return true;
-    system->taken = arena_take(arena, 2 * n, sizeof *system->taken);
-    if (!system->taken)
-        return false;
-    system->trial = system->taken + n;
-    for (size_t i = 0; i < n; i++) {
-        const struct scene_friction *of = &scene->friction[i];
-        if (!friction_create(&system->taken[i], of->coefficient, of->ratio, (size_t)cells, arena) ||
-            !friction_second(&system->trial[i], &system->taken[i], arena))
-            return false;
-    }
-    return true;
-}
-
-/* The cells of friction `i`, all open, at the present displacement. */
-static void friction_begin(struct reference_system *system, size_t i, double depth)
-{
-    struct friction *friction = &system->taken[i];
-    double force[2];
-    friction_touch(friction, &system->scene->laws[system->scene->friction[i].contact], depth);
-    friction_walk(friction, 0.0, system->indentation + scene_tangent(system->scene, i), force);
-    friction_copy(&system->trial[i], friction);
-}
-
-/* Reduction of a row's approach by the residual flexibility under the rows from `first` to `end`.
- */
-static double residual_of(const struct reference_system *system, size_t row, size_t first,
-                          size_t end)
-{
-    const double *by = system->scene->residual + row * system->rows; /* symmetric */
-    double sum = 0.0;
-    for (size_t r = first; r < end; r++)
-        sum += by[r] * system->force[r];
-    return sum;
-}
-
-/* Rounds of normals and tangents in turn end with a change of the tangential forces by this share
- * of their limit, or go on as far as rounding lets them. */
-static const double SAME_FORCE = 1e-13;
-enum { MOST_ROUNDS = 40 };
-
-/* Normals under the tangents' forces. */
-static void press_normals(struct reference_system *system)
-{
-    size_t n = system->scene->contacts;
-    for (size_t c = 0; c < n; c++)
-        system->pressed[c] = system->approach[c] - residual_of(system, c, n, system->rows);
-    contact_local_indentation(system->scene, system->pressed, system->indentation, system->force,
-                              system->matrix);
-}
-
-/* Walks friction `i` to the local displacements, then Newton's method for each of them by itself,
- * with the slope of the cells. Returns the change of the force over its limit. */
-static double drag_tangents(struct reference_system *system, size_t i)
-{
-    const struct scene *scene = system->scene;
-    const struct scene_friction *of = &scene->friction[i];
-    struct friction *trial = &system->trial[i];
-    size_t row = scene_tangent(scene, i);
-    double *d = system->indentation + row;
-    double limit = of->coefficient * system->force[of->contact];
-    double change = 0.0;
-    friction_copy(trial, &system->taken[i]);
-    friction_walk(trial, system->indentation[of->contact], d, system->force + row);
-    for (size_t t = 0; t < 2; t++) {
-        double own = scene->residual[(row + t) * (system->rows + 1)];
-        double excess =
-            d[t] - system->approach[row + t] + residual_of(system, row + t, 0, system->rows);
-        double moved = excess / (1.0 + own * trial->resists[t]);
-        d[t] -= moved;
-        change = fmax(change, fabs(moved) * trial->resists[t]);
-    }
-    return limit > 0.0 ? change / limit : 0.0;
-}
-
-/* Local indentations, displacements and forces of all rows for their approaches. */
-static void solve_rows(struct reference_system *system)
-{
-    size_t n = system->scene->contacts;
-    for (size_t r = n; r < system->rows; r++)
-        system->indentation[r] = system->approach[r] - residual_of(system, r, 0, system->rows);
-    for (int round = 0; round < MOST_ROUNDS; round++) {
-        double pressed = 0.0, change = 0.0;
-        double before[PERCUSS_MAX_CONTACTS];
-        memcpy(before, system->force, n * sizeof *before);
-        press_normals(system);
-        for (size_t c = 0; round > 0 && c < n; c++)
-            if (system->force[c] > 0.0)
-                pressed = fmax(pressed, fabs(system->force[c] / before[c] - 1.0));
-        for (size_t i = 0; i < system->scene->frictions; i++)
-            change = fmax(change, drag_tangents(system, i));
-        if (change <= SAME_FORCE && pressed <= SAME_FORCE)
-            return;
-    }
-}
-
-/* ---- Right-hand side ---- */
-
-/* Newton's method for d + c F(d, rate) = approach of a law that has the approach's rate in it
- * (way_step.h). */
-static void press_moving(struct reference_system *system)
-{
-    const struct contact_law *law = &system->scene->laws[0];
-    double c = system->scene->residual[0], *d = system->indentation;
-    double reach = fabs(*system->approach);
-    for (int round = 0; round < MOST_ROUNDS; round++) {
-        double stiffness, viscosity;
-        *system->force = law->operations->moving(law, *d, *system->rate, &stiffness, &viscosity);
-        double change = (*d + c * *system->force - *system->approach) / (1.0 + c * stiffness);
-        *d -= change;
-        if (fabs(change) <= SAME_FORCE * larger(reach, fabs(*d)))
-            return;
-    }
-}
-
-/* That of a law that remembers. */
-static void press_memory(struct reference_system *system, double t, const double *y)
-{
-    struct memory_instant *at = &system->present;
-    *at = (struct memory_instant){.time = t,
-                                  .approach = *system->approach,
-                                  .approach_rate = *system->rate,
-                                  .indentation = *system->indentation};
-    memory_rates_find(system->memory, y + lossy_work(system) + 1, at, system->memory_rate);
-    *system->indentation = at->indentation;
-    *system->force = at->force;
-}
-
-/* Finds motion, approaches, local indentations and forces of a state. */
-static void reference_system_forces(struct reference_system *system, double t, const double *y)
-{
-    reference_system_unpack(system, y, &system->motion);
-    for (size_t r = 0; r < system->rows; r++)
-        motion_approach(&system->motion, system->scene, r, &system->approach[r], &system->rate[r]);
-    for (size_t c = 0; c < system->scene->contacts; c++)
-        if (!(system->indentation[c] > 0.0))
-            system->indentation[c] = fmax(0.0, system->approach[c]);
-    if (system->scene->frictions)
-        solve_rows(system);
-    else if (system->memory)
-        press_memory(system, t, y);
-    else if (system->lossy)
-        press_moving(system);
-    else
-        contact_local_indentation(system->scene, system->approach, system->indentation,
-                                  system->force, system->matrix);
-}
-
-/* dy/dt and the root functions, see ode.h; `context`: the system. */
-static void reference_system_rates(double t, const double *y, double *rate, void *context)
-{
-    struct reference_system *system = context;
-    const struct scene *scene = system->scene;
-    size_t n = system->rows;
-    reference_system_forces(system, t, y);
-    /* gaps g'' = a + W F, impulses J' = F */
-    for (size_t i = 0; i < n; i++) {
-        rate[i] = y[n + i];
-        rate[n + i] = scene->gap_acceleration[i];
-        for (size_t j = 0; j < n; j++)
-            rate[n + i] += scene->w[i * n + j] * system->force[j];
-        rate[2 * n + i] = system->force[i];
-    }
-    for (size_t i = 0; i < scene->frictions; i++) {
-        size_t c = scene->friction[i].contact;
-        double power = system->force[c] * y[n + c];
-        rate[normal_work(system, i)] = larger(-power, 0.0);
-        rate[normal_work(system, i) + 1] = larger(power, 0.0);
-    }
-    if (system->lossy)
-        rate[lossy_work(system)] = *system->force * *system->rate;
-    if (system->memory)
-        memcpy(rate + lossy_work(system) + 1, system->memory_rate,
-               memory_rates_size(system->memory) * sizeof *rate);
-    /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and the damping loss */
-    double loss = 0.0;
-    double *next = rate + first_mode(system);
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; k < group->count; k++) {
-            double omega = group->set->omega[k];
-            double damping = group->set->damping[k];
-            double q = system->motion.q[g][k];
-            double v = system->motion.v[g][k];
-            double push = 0.0;
-            for (size_t c = 0; c < n; c++)
-                if (group->participation[c])
-                    push += group->participation[c][k] * system->force[c];
-            next[k] = v;
-            next[group->count + k] = push - omega * (2.0 * damping * v + omega * q);
-            loss += 2.0 * damping * omega * v * v;
-        }
-        next += 2 * group->count;
-    }
-    rate[damping_loss(system)] = loss;
-}
-
-static void reference_system_roots(double t, const double *y, double *values, void *context)
-{
-    struct reference_system *system = context;
-    reference_system_forces(system, t, y);
-    for (size_t c = 0; c < system->scene->contacts; c++) {
-        double *value = values + system->roots * c;
-        value[0] = system->indentation[c];
-        value[1] = system->memory ? system->present.turning : system->rate[c];
-        if (system->memory)
-            value[2] = system->present.pressed;
-        else if (system->roots > 2)
-            value[2] =
-                system->indentation[c] - fmin(contact_law_limit(&system->scene->laws[c]), ENDLESS);
-    }
-}
-
-/* The inverse mass that a row's tolerances are made of: its own, or of a tangent along which the
- * bodies do not move rigidly that of its contact's normal. */
-static double tolerated_mass(const struct scene *scene, size_t row)
-{
-    size_t rows = scene->rows;
-    double w = scene->w[row * (rows + 1)];
-    if (w > 0.0 || row < scene->contacts)
-        return w;
-    return scene->w[scene->friction[(row - scene->contacts) / 2].contact * (rows + 1)];
-}
-
-/* Gap, rate and impulse of a row with all the energy. */
-static void tolerate_row(struct reference_system *system, size_t row, double relative,
-                         double energy, double travel)
-{
-    size_t n = system->rows;
-    double w = tolerated_mass(system->scene, row);
-    double v = sqrt(2.0 * energy * w);
-    system->absolute[row] = relative * travel;
-    system->absolute[n + row] = relative * v;
-    system->absolute[2 * n + row] = relative * v / w;
-}
-
-/* Sets the absolute tolerances from the energy of a motion, so that they are independent of
- * units. */
-static void reference_system_tolerate(struct reference_system *system, const struct motion *motion,
-                                      double relative)
-{
-    const struct scene *scene = system->scene;
-    size_t n = scene->contacts;
-    size_t rows = system->rows;
-    /* the energy of the approaches and of vibration */
-    double energy = LEAST_ENERGY;
-    for (size_t r = 0; r < rows; r++) {
-        double v = scene->gap_rate[r];
-        energy += 0.5 * v * v / tolerated_mass(scene, r);
-    }
-    for (size_t g = 0; g < scene->groups; g++)
-        for (size_t b = 0; b < scene->bodies; b++)
-            energy += motion_vibration(motion, scene, b) / (double)scene->groups;
-    /* a contact with all the energy: force, gap, rate and impulse */
-    for (size_t c = 0; c < n; c++) {
-        double v = sqrt(2.0 * energy * scene->w[c * (rows + 1)]);
-        struct impact_scale scale = impact_scale_of(scene, c, v);
-        system->absolute_force[c] = scale.force;
-        system->duration[c] = scale.duration;
-        tolerate_row(system, c, relative, energy, scale.indentation);
-    }
-    /* its tangents slip by about the coefficient's share of the indentation */
-    for (size_t i = 0; i < 2 * scene->frictions; i++) {
-        const struct scene_friction *of = &scene->friction[i / 2];
-        double indentation = system->absolute[of->contact] / relative;
-        tolerate_row(system, n + i, relative, energy, fmin(of->coefficient, 1.0) * indentation);
-    }
-    for (size_t i = damping_loss(system); i < first_mode(system); i++)
-        system->absolute[i] = relative * energy;
-    if (system->memory)
-        memory_rates_tolerate(system->memory, relative, system->absolute[0] / relative,
-                              system->absolute + lossy_work(system) + 1);
-    /* a mode with all the energy */
-    double *next = system->absolute + first_mode(system);
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; k < group->count; k++) {
-            next[k] = relative * sqrt(2.0 * energy) / group->set->omega[k];
-            next[group->count + k] = relative * sqrt(2.0 * energy);
-        }
-        next += 2 * group->count;
-    }
-}
-
-/* ---- The method ---- */
 
 /* The impulse's error adds up over many steps: CVODE's relative tolerance is this share of the
  * accuracy, but at least LEAST_TOLERANCE because of rounding. */
@@ -496,17 +49,16 @@ struct reference {
     double accuracy;
     struct ode *ode; /* NULL: not begun */
     double *y;
-    double *opened;   /* [row] impulse when the sub-impact began */
-    double *noted;    /* [contact] impulse of which the moment is noted */
-    double longest;   /* step that misses no root, s; 0: any */
-    double parted_at; /* of a contact that remembers, s */
+    double *opened; /* [row] impulse when the sub-impact began */
+    double *noted;  /* [contact] impulse of which the moment is noted */
+    double longest; /* step that misses no root, s; 0: any */
 };
 
 static bool reference_create(struct reference *run, struct arena *arena)
 {
     if (!march_create(&run->march, arena) ||
         !reference_system_create(&run->system, &run->march.scene, arena) ||
-        !frictions_create(&run->system, run->accuracy, arena))
+        !reference_frictions_create(&run->system, run->accuracy, arena))
         return false;
     run->opened = arena_take(arena, run->system.rows, sizeof(double));
     run->noted = arena_take(arena, run->march.scene.contacts, sizeof(double));
@@ -562,7 +114,7 @@ static void open_contact(struct reference *run, size_t c, double t)
     size_t friction = scene_friction_of(&run->march.scene, c);
     run->system.indentation[c] = 0.0;
     if (friction < run->march.scene.frictions)
-        friction_begin(&run->system, friction, expected_depth(run, c));
+        reference_friction_begin(&run->system, friction, expected_depth(run, c));
     note_opening(run, c, t);
 }
 
@@ -612,25 +164,31 @@ static void yield(struct reference *run, size_t c)
         outcome->too_stiff = true;
 }
 
-/* A contact that remembers turns, parts or touches. */
-static void turn_memory(struct reference *run, const int *found)
+/* A contact that remembers turns, parts or touches, by its roots that are found. */
+static void turn_memory(struct reference *run, size_t c, const int *found)
 {
     struct reference_system *system = &run->system;
-    bool shrinks = system->memory->memory.shrinks;
+    struct followed *followed = reference_memory_of(system, c);
+    bool shrinks = followed->memory->memory.shrinks;
     bool grows_again = shrinks && (found[1] > 0 || found[2] < 0);
-    struct track *track = &run->march.outcome->tracks[0];
-    if (shrinks && found[2] < 0)
-        run->parted_at = system->present.time;
-    if (found[2] > 0 && track->largest_force <= NO_FORCE * *system->absolute_force)
-        track->open.start = system->present.time;
+    struct track *track = &run->march.outcome->tracks[c];
+    if (shrinks && found[2] < 0) {
+        followed->parted_at = followed->present.time;
+        followed->parted_rate = run->y[system->rows + c];
+    }
+    if (found[2] > 0 && track->largest_force <= NO_FORCE * system->absolute_force[c])
+        track->open.start = followed->present.time;
     if (grows_again || (!shrinks && found[1] < 0))
-        memory_rates_meet(system->memory, run->y + lossy_work(system) + 1, &system->present);
+        memory_rates_meet(followed->memory, run->y + followed->state, &followed->present);
 }
 
-/* The instant at which a contact ended whose indentation is 0 at `t`. */
-static double end_of(const struct reference *run, double t)
+/* A contact ends whose indentation is 0 at `t`. */
+static void close_contact(struct reference *run, size_t c, double t)
 {
-    return run->system.memory ? run->parted_at : t;
+    const struct followed *followed = reference_memory_of(&run->system, c);
+    double rate = run->y[run->system.rows + c];
+    march_close(&run->march, c, followed ? followed->parted_at : t,
+                followed ? followed->parted_rate : rate);
 }
 
 /* Bookkeeping at a root: contacts open and close, indentations peak. */
@@ -646,7 +204,7 @@ static void handle_roots(struct reference *run, double t, const int *found)
         } else if (opens < 0 && march->closed[c]) {
             note_impulse(run, c);
             memcpy(march->outcome->motion.gap_rate, run->y + rows, rows * sizeof *run->y);
-            march_close(march, c, end_of(run, t), run->y[rows + c]);
+            close_contact(run, c, t);
         }
     }
     /* indentations at their largest: a law may yield there */
@@ -657,8 +215,9 @@ static void handle_roots(struct reference *run, double t, const int *found)
         note_largest(run, c, t);
         yield(run, c);
     }
-    if (run->system.memory)
-        turn_memory(run, found);
+    for (size_t c = 0; c < n; c++)
+        if (reference_memory_of(&run->system, c))
+            turn_memory(run, c, found + run->system.roots * c);
 }
 
 /* CVODE does not report the rise of a root function that was exactly zero at a start: a contact
@@ -740,26 +299,32 @@ static void take_walk(struct reference *run)
     }
 }
 
-/* The largest force of a lossy law, at the steps. */
-static void note_force(struct reference *run)
+/* The largest forces of lossy laws, at the steps. */
+static void note_forces(struct reference *run)
 {
-    struct track *track = &run->march.outcome->tracks[0];
     reference_system_forces(&run->system, run->march.outcome->motion.time, run->y);
-    if (run->march.closed[0])
-        track->largest_force = larger(track->largest_force, run->system.force[0]);
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
+        struct track *track = &run->march.outcome->tracks[c];
+        if (run->march.closed[c] && run->march.scene.laws[c].operations->lossy)
+            track->largest_force = larger(track->largest_force, run->system.force[c]);
+    }
 }
 
-/* At the horizon: a contact that remembers may have parted. */
+/* At the horizon: contacts that remember may have parted. */
 static enum percuss_end_reason end_at_horizon(struct reference *run)
 {
     struct march *march = &run->march;
-    bool parted = run->system.memory && !(run->system.force[0] > 0.0);
     if (!march_in_contact(march))
         return PERCUSS_END_HORIZON;
-    if (!parted)
+    for (size_t c = 0; c < march->scene.contacts; c++) {
+        if (!march->closed[c] || !reference_memory_of(&run->system, c) ||
+            run->system.force[c] > 0.0)
+            continue;
+        note_impulse(run, c);
+        close_contact(run, c, march->horizon);
+    }
+    if (march_in_contact(march))
         return PERCUSS_END_IN_CONTACT;
-    note_impulse(run, 0);
-    march_close(march, 0, run->parted_at, run->y[run->system.rows]);
     return march->scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(march);
 }
 
@@ -778,8 +343,8 @@ static enum percuss_end_reason integrate(struct reference *run)
         note_moments(run, before, *now);
         if (march->scene.frictions)
             take_walk(run);
-        if (run->system.lossy)
-            note_force(run);
+        if (run->system.followed)
+            note_forces(run);
         /* contacts and laws that change, from which the solver starts anew */
         if (event == ODE_ROOT) {
             handle_roots(run, *now, found);
@@ -828,7 +393,7 @@ static enum percuss_end_reason solve(void *state, size_t contact)
     for (size_t r = scene->contacts; r < run->system.rows; r++)
         run->system.indentation[r] = run->system.approach[r];
     for (size_t i = 0; i < scene->frictions; i++)
-        friction_begin(&run->system, i, expected_depth(run, scene->friction[i].contact));
+        reference_friction_begin(&run->system, i, expected_depth(run, scene->friction[i].contact));
     for (size_t c = 0; c < scene->contacts; c++) {
         double near = TOUCHING * impact_scale_of(scene, c, run->system.rate[c]).indentation;
         if (run->system.approach[c] >= -near && run->system.rate[c] > 0.0)
@@ -849,7 +414,7 @@ static void end_friction(struct reference *run)
     for (size_t i = 0; i < scene->frictions; i++) {
         const struct friction *taken = &run->system.taken[i];
         size_t c = scene->friction[i].contact;
-        const double *work = run->y + normal_work(&run->system, i);
+        const double *work = run->y + reference_normal_work(&run->system, i);
         outcome->tracks[c].compressed = work[0];
         outcome->tracks[c].released = work[1];
         outcome->slid += taken->lost;
@@ -860,15 +425,18 @@ static void end_friction(struct reference *run)
     }
 }
 
-/* The work on the approach less what series compliance and law give back. */
+/* The work on the approaches less what flexibility and laws give back, and what dents take. */
 static void end_lossy(struct reference *run)
 {
     const struct reference_system *system = &run->system;
-    const struct contact_law *law = &system->scene->laws[0];
-    double force = system->force[0];
-    run->march.outcome->relaxed = run->y[lossy_work(system)] -
-                                  0.5 * system->scene->residual[0] * force * force -
-                                  law->operations->stored(law, run->march.indentation[0]);
+    const struct scene *scene = system->scene;
+    double sum = run->y[reference_lossy_work(system)] - run->march.outcome->plastic;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const struct contact_law *law = &scene->laws[c];
+        sum -= 0.5 * system->force[c] * reference_residual(system, c, 0, scene->contacts);
+        sum -= law->operations->stored(law, run->march.indentation[c]);
+    }
+    run->march.outcome->relaxed = sum;
     run->march.force = system->force;
 }
 
@@ -892,9 +460,9 @@ static void end_march(void *state)
         note_impulse(run, c);
         march->indentation[c] = run->system.indentation[c];
     }
-    march->damping = run->y[damping_loss(&run->system)];
+    march->damping = run->y[reference_damping_loss(&run->system)];
     end_friction(run);
-    if (run->system.lossy)
+    if (run->system.followed)
         end_lossy(run);
     /* the effort */
     unsigned long evaluations;

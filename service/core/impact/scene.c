@@ -18,6 +18,14 @@ enum percuss_status scene_prepare(const struct scene *scene, int level, struct p
     return PERCUSS_OK;
 }
 
+bool scene_is_lossy(const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->lossy)
+            return true;
+    return false;
+}
+
 bool scene_normals(const struct scene *scene, struct arena *arena, struct scene *normals)
 {
     size_t n = scene->contacts, rows = scene->rows;

@@ -85,6 +85,9 @@ static inline size_t scene_friction_of(const struct scene *scene, size_t contact
     return i;
 }
 
+/* Whether the law of any contact is lossy (contact/law.h). */
+bool scene_is_lossy(const struct scene *scene);
+
 /* The same scene without its tangents, as if it had no friction. Its matrices come from the arena,
  * all else from the scene. False: out of memory. */
 bool scene_normals(const struct scene *scene, struct arena *arena, struct scene *normals);

@@ -83,8 +83,8 @@ static struct way_taken taken_of(const struct way_contact *contact, int level, d
         .nodes = d,
         .forces = contact->force,
         .end = d[NODES],
-        .end_rate = (by[0] * d[0] + by[1] * d[1] + by[2] * d[2] + by[3] * d[3]) /
-                    step_length(level),
+        .end_rate =
+            (by[0] * d[0] + by[1] * d[1] + by[2] * d[2] + by[3] * d[3]) / step_length(level),
         .end_force = contact->force[NODES],
     };
 }

@@ -26,19 +26,11 @@ static struct way_slopes slopes_make(void)
     return slopes;
 }
 
-static bool any_lossy(const struct scene *scene)
-{
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (scene->laws[c].operations->lossy)
-            return true;
-    return false;
-}
-
 bool way_step_create(struct way_step **step, const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts, unknowns = n * STEP_POINTS;
     *step = NULL;
-    if (!any_lossy(scene))
+    if (!scene_is_lossy(scene))
         return true;
     struct way_step *made = arena_take(arena, 1, sizeof *made);
     if (!made)
