@@ -264,37 +264,32 @@ static bool states_loss(const struct problem *problem, size_t c)
            problem_body(problem, c, 1)->loss_factor > LEAST_LOSS;
 }
 
-/* Why a contact cannot lose what its materials do; NULL: it can. */
+/* Why no contact can lose what its materials do; NULL: one can. */
 static const char *why_lossless(const struct problem *problem)
 {
-    size_t rubs = rubbing(problem);
-    if (problem->contact_count == 1 && rubs == 0 && !states_loss(problem, 0))
+    bool stated = false;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        stated = stated || states_loss(problem, c);
+    if (!stated && rubbing(problem) == 0)
         return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
-    return contact_law_refuses(&law, rubs);
+    return contact_law_refuses(&law, rubbing(problem));
 }
 
-/* The law of the only contact, where its bodies state a loss. */
-static enum percuss_status find_lossy(struct problem *problem, struct fault *fault)
+/* The law of a contact whose bodies state a loss. False: out of memory. */
+static bool find_loss(struct problem *problem, size_t c)
 {
-    struct contact_choice *choice = &problem->contact_model.choices[0];
-    bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
-    const char *why = why_lossless(problem);
-    if (why && asked)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "options.contact_model: viscoelastic: %s",
-                         why);
-    double omega = why ? NAN : problem_frequency(problem, 0);
-    if (!(omega > 0.0) || !(asked || asked_of(problem)->yields_if_needed))
-        return PERCUSS_OK;
-    struct contact_loss *loss = choice->loss = arena_take(problem->arena, 1, sizeof *loss);
+    struct contact_loss *loss = arena_take(problem->arena, 1, sizeof *loss);
+    double omega = problem_frequency_near(problem, c);
+    problem->contact_model.choices[c].loss = loss;
     if (!loss)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        return false;
     double compliance[2], before = 0.0;
     struct relaxation own[2];
     for (int which = 0; which < 2; which++) {
-        const struct material *material = problem_material(problem, 0, which);
+        const struct material *material = problem_material(problem, c, which);
         double stiffer, at = (1.0 - material->poisson * material->poisson) / material->young;
-        own[which] = relaxation_of(problem_body(problem, 0, which), omega, &stiffer);
+        own[which] = relaxation_of(problem_body(problem, c, which), omega, &stiffer);
         compliance[which] = at / stiffer;
         before += at;
     }
@@ -302,7 +297,23 @@ static enum percuss_status find_lossy(struct problem *problem, struct fault *fau
     loss->relaxation = relaxation_in_series(&own[0], compliance[0] / sudden, &own[1]);
     loss->loss_factor = relaxation_loss_factor(&loss->relaxation, omega);
     loss->law =
-        contact_law_viscoelastic(problem->hertz[0].stiffness * before / sudden, &loss->relaxation);
+        contact_law_viscoelastic(problem->hertz[c].stiffness * before / sudden, &loss->relaxation);
+    return true;
+}
+
+static enum percuss_status find_lossy(struct problem *problem, struct fault *fault)
+{
+    bool asked = asked_of(problem)->model == PERCUSS_CONTACT_VISCOELASTIC;
+    const char *why = why_lossless(problem);
+    if (why && asked)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "options.contact_model: viscoelastic: %s",
+                         why);
+    if (why || !(asked || asked_of(problem)->yields_if_needed))
+        return PERCUSS_OK;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        if (states_loss(problem, c) && problem_frequency_near(problem, c) > 0.0 &&
+            !find_loss(problem, c))
+            return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     return PERCUSS_OK;
 }
 
@@ -317,7 +328,7 @@ static void use_laws(struct problem *problem, bool yielding)
         const struct contact_choice *choice = &model->choices[c];
         if (choice->own)
             model->laws[c] = choice->plastic;
-        else if (choice->loss && (asked || !yielding))
+        else if (choice->loss && (asked || !yielding || choice->side < 0))
             model->laws[c] = choice->loss->law;
         else
             model->laws[c] =
@@ -402,12 +413,14 @@ const struct contact_law_operations *contact_model_used(const struct problem *pr
     for (size_t c = 1; c < problem->contact_count; c++) {
         const struct contact_law_operations *here = laws[c].operations;
         /* a law of the catalogue counts for all, then one that yields, and of those one that
-         * approximates tables */
+         * approximates tables, then one with a loss */
         if (used->model == PERCUSS_CONTACT_LAW)
             continue;
         if (here->model == PERCUSS_CONTACT_LAW)
             used = here;
         else if (here->curve && (!used->curve || here->tables == CONTACT_TABLES_NONE))
+            used = here;
+        else if (here->lossy && !used->curve)
             used = here;
     }
     return used;
@@ -448,6 +461,11 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
     if (choice->side >= 0 && share <= 1.0)
         text_format(text, ", below yield (%.2g of the indentation at which %s yields)", share,
                     problem_body(problem, hardest, choice->side)->id);
+    size_t lossless = 0;
+    for (size_t c = 0; contact_model_used(problem)->lossy && c < problem->contact_count; c++)
+        lossless += !problem->contact_model.laws[c].operations->lossy;
+    if (lossless > 0)
+        text_format(text, "; %zu of %zu contacts without a loss", lossless, problem->contact_count);
 }
 
 static void explain_plastic(const struct problem *problem, const struct impact_outcome *outcome,

@@ -58,6 +58,30 @@ double problem_frequency(const struct problem *problem, size_t c)
     return M_PI * speed / (HERTZ_DURATION * problem_indentation(problem, c, speed));
 }
 
+/* Whether two contacts have a body in common. */
+static bool share_body(const struct problem *problem, size_t a, size_t b)
+{
+    for (int i = 0; i < 4; i++)
+        if (problem->sides[a][i / 2].body == problem->sides[b][i % 2].body)
+            return true;
+    return false;
+}
+
+double problem_frequency_near(const struct problem *problem, size_t c)
+{
+    double near = 0.0, any = 0.0;
+    for (size_t other = 0; other < problem->contact_count; other++) {
+        double omega = problem_frequency(problem, other);
+        if (!(omega > 0.0))
+            continue;
+        if (other == c)
+            return omega;
+        any = fmax(any, omega);
+        near = fmax(near, share_body(problem, c, other) ? omega : 0.0);
+    }
+    return near > 0.0 ? near : any;
+}
+
 double problem_largest_compression(const struct problem *problem)
 {
     double largest = 0.0;

@@ -134,6 +134,10 @@ double problem_touching_speed(const struct problem *problem, size_t contact);
  * duration. NAN: it does not touch. */
 double problem_frequency(const struct problem *problem, size_t contact);
 
+/* The same, of a contact that does not approach the fastest of those with a body of its own, or of
+ * all; 0: none approaches. */
+double problem_frequency_near(const struct problem *problem, size_t contact);
+
 /* Of the contacts' compression impulses, N s. */
 double problem_largest_compression(const struct problem *problem);
 

@@ -18,7 +18,7 @@ struct runge_kutta {
     /* after each step that is accepted; NULL: nothing */
     void (*accept)(double time, double *y, void *context);
     void *context;
-    double tolerance; /* of a step, absolute */
+    double tolerance, longest; /* of a step: absolute error, and length, > 0 */
 };
 
 /* Brings y from one instant to another. */
@@ -41,7 +41,7 @@ static inline void runge_kutta_run(const struct runge_kutta *of, double time, do
     assert(of->size <= RUNGE_KUTTA_MOST);
     while (time < end) {
         double error = 0.0;
-        h = fmin(h, end - time);
+        h = fmin(fmin(h, of->longest), end - time);
         for (int s = 0; s < STAGES; s++) {
             memcpy(at, y, of->size * sizeof *y);
             for (size_t i = 0; i < of->size; i++)

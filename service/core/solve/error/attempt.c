@@ -228,7 +228,7 @@ bool attempt_is_followed(const struct attempt_context *context, const struct att
     const struct force_log *log = attempt->log;
     return log && log->complete && log->count > 0 && !attempt_is_long(attempt) &&
            !attempt_is_spent(attempt) && attempt->outcome.plastic == 0.0 &&
-           !attempt->outcome.laws[0].operations->lossy &&
+           !scene_is_lossy(&attempt->assembly->scene) &&
            problem_largest_compression(context->problem) > 0.0;
 }
 

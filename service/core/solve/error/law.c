@@ -513,9 +513,8 @@ double loss_worst(const struct problem *problem, const struct impact_outcome *ou
 static const char *method_with_loss(const struct problem *problem)
 {
     const struct solve_options *options = &problem->request->options;
-    if (problem->contact_count > 1 || problem->friction_count == 0 ||
-        problem->contact_model.yielding || options->contact_model != PERCUSS_CONTACT_AUTO ||
-        options->method != PERCUSS_METHOD_CVODE)
+    if (problem->friction_count == 0 || problem->contact_model.yielding ||
+        options->contact_model != PERCUSS_CONTACT_AUTO || options->method != PERCUSS_METHOD_CVODE)
         return "";
     return "; method modal has it, or options.friction none";
 }
