@@ -501,13 +501,23 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
     find_finest(run);
 }
 
-/* It ends at `time`; the motion is a little later. */
+static bool is_lossy(const struct modal_run *run, size_t contact)
+{
+    return run->step.way && run->march.scene.laws[contact].operations->lossy;
+}
+
+/* It ends at `time`; the motion is a little later. One whose force depends on its way has parted
+ * before, while other contacts went on (keep_way). */
 static void close_contact(struct modal_run *run, size_t contact, double time)
 {
     struct march *march = &run->march;
     const struct motion *motion = &march->outcome->motion;
     double since = march->scene.gap_acceleration[contact] * (motion->time - time);
-    march_close(march, contact, time, motion->gap_rate[contact] - since);
+    if (is_lossy(run, contact))
+        march_close(march, contact, run->step.way->contact[contact].parted_at,
+                    march->outcome->tracks[contact].open.gap_rate_after);
+    else
+        march_close(march, contact, time, motion->gap_rate[contact] - since);
     find_finest(run);
 }
 
@@ -679,13 +689,15 @@ static double end_of(const struct modal_run *run, const struct step_values *step
     return start + h * (run->projects ? step_ends_release : step_values_release)(step);
 }
 
-/* The books of a contact whose force depends on its way: it may part before its indentation ends,
- * while other contacts push on. */
+/* The books of a contact whose force depends on its way: it may part before its indentation ends.
+ */
 NOT_INLINE static void keep_way(struct modal_run *run, size_t c, double start)
 {
     const struct way_contact *way = &run->step.way->contact[c];
     const struct motion *motion = &run->march.outcome->motion;
     struct track *track = &run->march.outcome->tracks[c];
+    if (!is_lossy(run, c))
+        return;
     way_step_take(run->step.way, c, start, run->step.end_force);
     if (!run->march.closed[c])
         return;
@@ -694,19 +706,6 @@ NOT_INLINE static void keep_way(struct modal_run *run, size_t c, double start)
     if (way->parted_at >= start)
         track->open.gap_rate_after = motion->gap_rate[c] - run->march.scene.gap_acceleration[c] *
                                                                (motion->time - way->parted_at);
-}
-
-static bool is_lossy(const struct modal_run *run, size_t contact)
-{
-    return run->step.way && run->march.scene.laws[contact].operations->lossy;
-}
-
-/* Such a contact has parted, and its indentation ends. */
-static void close_way(struct modal_run *run, size_t c)
-{
-    march_close(&run->march, c, run->step.way->contact[c].parted_at,
-                run->march.outcome->tracks[c].open.gap_rate_after);
-    find_finest(run);
 }
 
 /* The books of one contact after a step: sub-impacts begin, go on, end (also all of it within one
@@ -721,15 +720,13 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     if (!run->march.closed[c] && (end > 0.0 || bears(run, c)))
         open_contact(run, c, start + h * step_values_closing(&step),
                      larger(run->now[c].rate, after.rate));
-    if (is_lossy(run, c))
+    if (run->step.way)
         keep_way(run, c, start);
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (run->march.scene.frictions)
             keep_slide(run, c, h);
-        if (end <= 0.0 && is_lossy(run, c))
-            close_way(run, c);
-        else if (end <= 0.0)
+        if (end <= 0.0)
             close_contact(run, c, end_of(run, &step, start, h));
     }
     run->now[c] = after;
@@ -855,7 +852,7 @@ static enum percuss_end_reason end_at_horizon(struct modal_run *run)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (run->march.closed[c] && is_lossy(run, c) && run->step.way->contact[c].parted)
-            close_way(run, c);
+            close_contact(run, c, run->march.horizon);
     if (march_in_contact(&run->march))
         return PERCUSS_END_IN_CONTACT;
     return run->march.scene.groups > 0 ? PERCUSS_END_HORIZON : march_parted(&run->march);
