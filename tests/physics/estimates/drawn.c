@@ -172,6 +172,8 @@ bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number, struct
         scene_draw_oblique(lab, &r, scene);
     else if (class == CLASS_LOSSY)
         scene_draw_lossy(lab, &r, scene);
+    else if (class == CLASS_LOSSY_GROUP)
+        scene_draw_lossy_group(lab, &r, scene);
     else if (class == CLASS_RUBBED)
         scene_draw_rubbed(lab, &r, scene);
     else

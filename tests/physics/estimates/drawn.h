@@ -19,7 +19,8 @@
     X(CHAIN, "chain", "two to five blows by token, damped or not")                                 \
     X(OBLIQUE, "oblique", "contacts with friction, at any angle")                                  \
     X(LOSSY, "lossy", "a sphere on a wall, a rod or a beam, of plastics and rubber")               \
-    X(RUBBED, "rubbed", "the same with friction, at any angle")
+    X(LOSSY_GROUP, "lossy-group", "two to five spheres in a row or on a beam, of the same")        \
+    X(RUBBED, "rubbed", "one sphere as of lossy with friction, at any angle")
 
 enum scene_class {
 #define X(name, word, text) CLASS_##name,
@@ -72,6 +73,7 @@ void scene_draw_eccentric(struct lab *lab, uint64_t *r, struct scene_drawn *scen
 void scene_draw_rolled(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_oblique(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_lossy(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
+void scene_draw_lossy_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_rubbed(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 
 /* A beam of any ends in the lab under that id; returns it. */

@@ -78,3 +78,77 @@ void scene_draw_lossy(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
               under->length);
     say(scene, "", under);
 }
+
+/* A ball that may be lossy. */
+static const struct body *add_ball(struct lab *lab, uint64_t *r, struct scene_drawn *scene,
+                                   const double at[3], double radius)
+{
+    struct solve_request *request = &scene->request;
+    struct solve_body *body = &request->bodies[request->body_count++];
+    struct body ball = make_sphere(scene_material(r), radius);
+    *body = (struct solve_body){.orientation = {1.0, 0.0, 0.0, 0.0}};
+    snprintf(body->id, sizeof body->id, "s%zu", request->body_count);
+    memcpy(body->position, at, sizeof body->position);
+    return lab_add(lab, body->id, scene_pick(r, 3) ? draw_loss(r, ball) : ball);
+}
+
+static void add_contact(struct solve_request *request, unsigned a, unsigned b,
+                        const double point[3], double gap)
+{
+    struct solve_contact *contact = &request->contacts[request->contact_count++];
+    *contact = (struct solve_contact){.a = a, .b = b, .normal = {0.0, 0.0, 1.0}, .gap = gap};
+    memcpy(contact->point, point, sizeof contact->point);
+}
+
+/* The uppermost comes down on the others. */
+static void draw_row(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
+{
+    struct solve_request *request = &scene->request;
+    unsigned count = 3 + (unsigned)scene_pick(r, 3);
+    double usual = scene_log(r, 0.003, 0.03), z = 0.0;
+    bool gaps = scene_pick(r, 2);
+    for (unsigned i = 0; i < count; i++) {
+        double radius = usual * scene_log(r, 0.5, 2.0);
+        double gap = gaps && i > 0 ? scene_log(r, 1e-8, 1e-4) : 0.0;
+        z -= gap;
+        say(scene, i > 0 ? " then" : "row:",
+            add_ball(lab, r, scene, (double[]){0.0, 0.0, z - radius}, radius));
+        if (i > 0)
+            add_contact(request, i - 1, i, (double[]){0.0, 0.0, z + 0.5 * gap}, gap);
+        z -= 2.0 * radius;
+    }
+    request->bodies[0].velocity[2] = -scene_log(r, 0.03, 3.0);
+}
+
+/* Side by side on a beam. */
+static void draw_beam(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
+{
+    struct solve_request *request = &scene->request;
+    unsigned count = 2 + (unsigned)scene_pick(r, 3);
+    double radius = scene_log(r, 0.003, 0.03), length = radius * scene_log(r, 20.0, 100.0);
+    struct body beam = make_bar(&beam_kind, scene_material(r), radius, length);
+    const struct body *under =
+        lab_add(lab, "beam", scene_pick(r, 2) ? damp(draw_loss(r, beam)) : beam);
+    request->bodies[0] = (struct solve_body){.id = "beam", .orientation = {1.0, 0.0, 0.0, 0.0}};
+    request->body_count = 1;
+    say(scene, "beam", under);
+    double speed = scene_log(r, 0.03, 3.0);
+    for (unsigned i = 0; i < count; i++) {
+        double x = under->length *
+                   ((0.5 + (double)i + random_between(r, -0.4, 0.4)) / (double)count - 0.5);
+        double ball = radius * scene_log(r, 0.3, 3.0);
+        double gap = scene_pick(r, 2) ? 0.0 : scene_log(r, 1e-8, 1e-4);
+        say(scene, ", ball",
+            add_ball(lab, r, scene, (double[]){x, 0.0, under->radius + ball + gap}, ball));
+        add_contact(request, i + 1, 0, (double[]){x, 0.0, under->radius}, gap);
+        request->bodies[i + 1].velocity[2] = -speed * random_between(r, i > 0 ? -0.1 : 0.5, 1.0);
+    }
+}
+
+void scene_draw_lossy_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
+{
+    if (scene_pick(r, 2))
+        draw_row(lab, r, scene);
+    else
+        draw_beam(lab, r, scene);
+}
