@@ -72,12 +72,15 @@ double contact_memory_growing(double k, double raised, double remembered, double
     return left > 0.0 ? k * left : 0.0;
 }
 
-/* The first root of f(y), at most the width: the edge. */
+/* The first root of f(y), at most the width: the edge. A parabola that is below 0 in the middle
+ * presses nowhere, also where it rises. */
 static double edge_of(const double f[3], double width)
 {
     double square = f[1] * f[1] - 4.0 * f[0] * f[2];
     double falls = square >= 0.0 ? sqrt(square) - f[1] : 0.0;
-    return falls > 0.0 ? smaller(2.0 * f[0] / falls, width) : width;
+    if (falls > 0.0)
+        return smaller(2.0 * f[0] / falls, width);
+    return f[0] > 0.0 ? width : f[0];
 }
 
 double contact_memory_edge(double indentation, const double pressed[3], double width)
