@@ -36,12 +36,12 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
     return sum;
 }
 
-/* Energy stored by a law; where it yields, that of a force like d^(3/2) instead of the integral;
- * where it remembers, as suddenly. */
+/* Energy stored by a law; where it yields, or remembers and stores less than its force does, that
+ * of a force like d^(3/2) instead of the integral. */
 static double stored_about(const struct contact_law *law, double d, double force)
 {
-    return law->operations->curve || law->operations->remembers ? HERTZ_WORK * force * d
-                                                                : law->operations->stored(law, d);
+    const struct contact_law_operations *of = law->operations;
+    return of->curve || of->remembers ? HERTZ_WORK * force * d : of->stored(law, d);
 }
 
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
