@@ -164,6 +164,16 @@ static struct grown grow_at_nodes(const struct memory_step *step, const double n
     return grown;
 }
 
+/* The width of a contact that grows, at the end of the step. */
+static double width_at_end(const struct memory_step *step, double end)
+{
+    double pressed[3];
+    if (!grows_on_rest(step))
+        return end;
+    press(step, NODES, end, pressed);
+    return contact_memory_edge(end, pressed, step->memory.left.reach);
+}
+
 /* Term k at a share x of the step. */
 static double memory_at(double z, double x, double start, const double values[NODES])
 {
@@ -174,15 +184,18 @@ static double memory_at(double z, double x, double start, const double values[NO
 }
 
 /* What is remembered where the contact turns from growing to shrinking, by the indentations at the
- * nodes. False: it does not turn on the step. */
-static bool find_turn(struct memory_step *step, const double nodes[NODES])
+ * points. False: it does not turn on the step: also where the cubic of its width does, but it is
+ * wider at the end, as one that begins slowly. */
+static bool find_turn(struct memory_step *step, const double d[STEP_POINTS])
 {
     step->turn = INFINITY;
     if (step->memory.shrinks)
         return false;
-    const struct grown grown = grow_at_nodes(step, nodes);
+    const struct grown grown = grow_at_nodes(step, d);
     double x = collocation_turn(grown.width);
     if (!(x > 0.0 && x < 1.0 && collocation_value(grown.width, x) > 0.0))
+        return false;
+    if (width_at_end(step, d[NODES]) > collocation_value(grown.width, x))
         return false;
     step->turned = step->memory;
     for (size_t k = 0; k < step->memory.relaxation->count; k++) {
@@ -304,10 +317,10 @@ void memory_step_forces(const struct memory_step *step, const double d[STEP_POIN
     }
 }
 
-bool memory_step_turns(struct memory_step *step, const double nodes[NODES])
+bool memory_step_turns(struct memory_step *step, const double d[STEP_POINTS])
 {
     bool turned = step->turn < 1.0;
-    return find_turn(step, nodes) || turned;
+    return find_turn(step, d) || turned;
 }
 
 /* ---- Accepted steps ---- */
@@ -361,16 +374,6 @@ static void take_terms(struct memory_step *step, const struct way_taken *taken,
     }
 }
 
-/* The width of a contact that grows, at the end of the step. */
-static double width_at_end(const struct memory_step *step, double end)
-{
-    double pressed[3];
-    if (!grows_on_rest(step))
-        return end;
-    press(step, NODES, end, pressed);
-    return contact_memory_edge(end, pressed, step->memory.left.reach);
-}
-
 void memory_step_take(struct memory_step *step, const struct way_taken *taken, bool parted)
 {
     struct contact_memory *memory = &step->memory;
@@ -389,7 +392,8 @@ void memory_step_take(struct memory_step *step, const struct way_taken *taken, b
     /* a turn that was missed: at the largest width of the step */
     if (!memory->shrinks && parted && memory->total[0] > 0.0 && widest > 0.0)
         contact_memory_shrink(memory, widest);
-    if (memory->shrinks && (parted || taken->end_rate > 0.0))
+    /* one that turns just before the end does not grow again, though the rate is about 0 still */
+    if (memory->shrinks && (parted || (taken->end_rate > 0.0 && !turns)))
         contact_memory_renew(memory);
     step->time = taken->time + step_length(taken->level);
 }

@@ -56,8 +56,8 @@ void memory_step_start(struct memory_step *step, int level);
 void memory_step_forces(const struct memory_step *step, const double indentation[STEP_POINTS],
                         double force[STEP_POINTS], double slope[STEP_POINTS][STEP_POINTS]);
 
-/* Finds the turn for the indentations at the nodes. False: there is none, and was none before. */
-bool memory_step_turns(struct memory_step *step, const double nodes[NODES]);
+/* Finds the turn for the indentations at the points. False: there is none, and was none before. */
+bool memory_step_turns(struct memory_step *step, const double indentation[STEP_POINTS]);
 
 /* One step that is accepted, which began at `time`: the indentation at its end with the rate and
  * the force there. */
