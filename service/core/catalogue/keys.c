@@ -424,7 +424,7 @@ static const struct key law_keys[] = {
     {"dissipation", KEY_NUMBER, &limit_dissipation, false, KEY_OF(own_law, dissipation),
      .apart = {"points", "hysteresis"},
      KEY_SAYS("0", "Hunt and Crossley's: the force is 1 + dissipation times the rate of the "
-                   "indentation as large, and never pulls; of single contacts")},
+                   "indentation as large, and never pulls")},
     {"points", KEY_TEXT, .required = false, .allowed = "a path of a CSV file",
      KEY_SAYS("stiffness is stated",
               "file of two columns, indentation in m and force in N, from 0 to the largest; an "

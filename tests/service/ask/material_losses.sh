@@ -1,7 +1,7 @@
 #!/bin/sh
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-# Plastics and rubber lose energy of themselves: it is in the number of a single contact, and who asks for another law is
+# Plastics and rubber lose energy of themselves: it is in the number, also of groups of contacts, and who asks for another law is
 # told that it is not, and how much that is, whatever he asks with.
 . "$(dirname "$0")/../support/lib.sh"
 

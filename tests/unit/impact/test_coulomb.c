@@ -151,8 +151,7 @@ static void lossy_spheres(void **state)
 }
 
 /* A bar that falls askew and slides throughout: its normal motion is that without friction of a
- * body with the inverse mass w_nn - mu w_nt, and as much less residual flexibility. By CVODE. (Hunt
- * and Crossley's rate would have the flexibility in another way.) */
+ * body with the inverse mass w_nn - mu w_nt, and as much less residual flexibility. By CVODE. */
 static void lossy_bars(void **state)
 {
     (void)state;
@@ -160,7 +159,7 @@ static void lossy_bars(void **state)
     lossy_laws(laws);
     for (size_t l = 0; l < LOSSY; l++)
         for (int way = -1; way <= 1; way += 2) {
-            double soft = l < 2 ? 0.0 : 0.1;
+            const double soft = 0.1;
             struct toy toy, alone;
             struct scene_friction friction;
             sphere_init(&toy, &friction, MU);
@@ -176,8 +175,9 @@ static void lossy_bars(void **state)
             alone.w[0] = 1.0 - 0.9 * MU * way;
             alone.residual[0] = (2.0 - MU * way) * soft;
             const struct impact_outcome outcome = toy_run(&toy, 1e-9, 100.0);
-            const struct impact_outcome bare = toy_cvode(&alone, 1e-9, 100.0);
+            const struct impact_outcome bare = toy_cvode(&alone, 1e-11, 100.0);
             near_relative(outcome.tracks[0].impulse, bare.tracks[0].impulse, 1e-6);
+            /* cvode's is the largest at its steps */
             near_relative(outcome.tracks[0].list[0].peak_force, bare.tracks[0].list[0].peak_force,
                           1e-4);
             near_relative(outcome.tracks[0].tangential[0], -way * MU * outcome.tracks[0].impulse,

@@ -381,6 +381,115 @@ static void cvode_loses_the_same(void **state)
     lab_free(lab);
 }
 
+/* ---- Groups ---- */
+
+/* A ball of the lab above the beam, or on another ball, that comes down. */
+static void add_ball(struct solve_request *request, const char *id, const double at[3],
+                     double radius, unsigned on, double speed)
+{
+    unsigned body = (unsigned)request->body_count++;
+    struct solve_body *ball = &request->bodies[body];
+    struct solve_contact *contact = &request->contacts[request->contact_count++];
+    *ball = (struct solve_body){.orientation = {1.0, 0.0, 0.0, 0.0},
+                                .position = {at[0], at[1], at[2] + radius},
+                                .velocity = {0.0, 0.0, -speed}};
+    strcpy(ball->id, id);
+    *contact = (struct solve_contact){.a = body, .b = on, .normal = {0.0, 0.0, 1.0}};
+    memcpy(contact->point, at, sizeof contact->point);
+}
+
+/* An acrylic ball and a steel one on a beam of steel, and a rubber ball on the first: each contact
+ * with its own law. */
+static struct solve_request three_on_a_beam(struct lab *lab)
+{
+    const double radius = 0.008, size = 0.01;
+    lab_add(lab, "acrylic", lossy(make_sphere(ACRYLIC, size), 0.08));
+    lab_add(lab, "steel", make_sphere(STEEL, size));
+    lab_add(lab, "rubber", lossy(make_sphere(RUBBER, size), 0.3));
+    lab_add(lab, "beam", make_bar(&beam_kind, STEEL, radius, 0.4));
+    struct solve_request request = {.body_count = 1};
+    strcpy(request.bodies[0].id, "beam");
+    request.bodies[0].orientation[0] = 1.0;
+    add_ball(&request, "acrylic", (double[]){-0.1, 0.0, radius}, size, 0, 0.3);
+    add_ball(&request, "steel", (double[]){0.12, 0.0, radius}, size, 0, 0.2);
+    add_ball(&request, "rubber", (double[]){-0.1, 0.0, radius + 2.0 * size}, size, 1, 0.5);
+    return request;
+}
+
+static void groups_lose_by_both_methods(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    struct solve_request request = three_on_a_beam(lab);
+    static struct solve_result modal;
+    lab_solve(lab, &request, &modal);
+    assert_int_equal(modal.contact_model, PERCUSS_CONTACT_VISCOELASTIC);
+    assert_non_null(strstr(modal.reason, "; 1 of 3 contacts without a loss"));
+    request.options.method = PERCUSS_METHOD_CVODE;
+    lab_solve(lab, &request, &result);
+    for (size_t c = 0; c < 3; c++) {
+        double allowed = 2.0 * (modal.restitution_time + modal.restitution_modes +
+                                result.restitution_time + result.restitution_modes);
+        print_message("contact %zu: %zu blows, impulse %.6g, cvode %.6g\n", c,
+                      modal.contacts[c].sub_impact_count, modal.contacts[c].impulse,
+                      result.contacts[c].impulse);
+        measured("impulse", modal.contacts[c].impulse / modal.contacts[c].impulse_compression,
+                 result.contacts[c].impulse / modal.contacts[c].impulse_compression, allowed);
+    }
+    assert_true(modal.energy.damping > 0.05 * modal.energy.available);
+    measured("lost", result.energy.damping / result.energy.available,
+             modal.energy.damping / modal.energy.available, 2e-3);
+    measured("closure", modal.energy.closure / modal.energy.available, 0.0, 1e-4);
+    lab_free(lab);
+}
+
+/* A ball on a wall loses the same beside another one, which is elastic and stays so. */
+static void one_contact_of_a_group_is_as_alone(void **state)
+{
+    (void)state;
+    struct lab *lab = lab_create();
+    struct solve_request request = {.body_count = 1};
+    lab_add(lab, "wall", rigid_wall());
+    lab_add(lab, "acrylic", lossy(make_sphere(ACRYLIC, 0.01), 0.08));
+    strcpy(request.bodies[0].id, "wall");
+    request.bodies[0].orientation[0] = 1.0;
+    add_ball(&request, "acrylic", (double[]){0.0, 0.0, 0.0}, 0.01, 0, 1.0);
+    lab_solve(lab, &request, &result);
+    double alone = result.contacts[0].impulse, deviation = result.restitution_model;
+    lab_add(lab, "steel", make_sphere(STEEL, 0.01));
+    add_ball(&request, "steel", (double[]){0.1, 0.0, 0.0}, 0.01, 0, 0.7);
+    lab_solve(lab, &request, &result);
+    near_relative(result.contacts[0].impulse, alone, 1e-5);
+    measured("restitution of steel",
+             result.contacts[1].impulse / result.contacts[1].impulse_compression, 2.0, 1e-5);
+    /* what 30 % of the loss factor change is in its error still */
+    assert_true(result.restitution_model > 0.9 * deviation);
+    assert_false(warns("loses of itself"));
+    lab_free(lab);
+}
+
+/* Where a contact yields, those that cannot keep their loss, and it is told of those that lose it.
+ */
+static void beside_one_that_yields(void **state)
+{
+    (void)state;
+    static const struct material soft = {"soft-steel", 210e9, 0.3, 7850.0, 100e6, 0.0};
+    struct lab *lab = lab_create();
+    struct solve_request request = {.body_count = 1};
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
+    lab_add(lab, "acrylic", lossy(make_sphere(ACRYLIC, 0.01), 0.08));
+    lab_add(lab, "soft", make_sphere(soft, 0.01));
+    strcpy(request.bodies[0].id, "wall");
+    request.bodies[0].orientation[0] = 1.0;
+    add_ball(&request, "acrylic", (double[]){0.0, 0.0, 0.0}, 0.01, 0, 1.0);
+    add_ball(&request, "soft", (double[]){0.1, 0.0, 0.0}, 0.01, 0, 1.0);
+    lab_solve(lab, &request, &result);
+    assert_true(result.energy.plastic > 0.0 && result.energy.damping > 0.0);
+    assert_true(result.contacts[0].impulse < 1.95 * result.contacts[0].impulse_compression);
+    assert_false(warns("loses of itself"));
+    lab_free(lab);
+}
+
 /* What has no loss in it is refused by name if it is asked for, and told of if it is not. */
 static void other_contacts_have_none(void **state)
 {
@@ -416,6 +525,9 @@ int main(void)
         cmocka_unit_test(steps_follow_what_is_remembered),
         cmocka_unit_test(cvode_loses_the_same),
         cmocka_unit_test(other_contacts_have_none),
+        cmocka_unit_test(groups_lose_by_both_methods),
+        cmocka_unit_test(one_contact_of_a_group_is_as_alone),
+        cmocka_unit_test(beside_one_that_yields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

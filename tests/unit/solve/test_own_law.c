@@ -114,6 +114,42 @@ static void dissipation(void **state)
     }
 }
 
+/* Three balls in a row, of which the first comes: the law is between two of them, Hertz's between
+ * the others, or of both contacts; by both methods. */
+static void dissipation_in_a_row(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        static const char *const ids[2][3] = {{"ball", "pad", "pad"}, {"pad", "ball", "pad"}};
+        struct own_law law = {
+            .stiffness = 1e9, .exponent = 1.5, .dissipation = 0.4, .deviation = 0.05};
+        struct lab *lab = with_law(&law);
+        struct solve_request request = {.body_count = 3, .contact_count = 2};
+        double impulse[2];
+        for (unsigned b = 0; b < 3; b++) {
+            strcpy(request.bodies[b].id, ids[i][b]);
+            request.bodies[b].position[0] = 0.02 * b;
+            request.bodies[b].orientation[0] = 1.0;
+        }
+        for (unsigned c = 0; c < 2; c++)
+            request.contacts[c] = (struct solve_contact){
+                .a = c, .b = c + 1, .point = {0.02 * c + 0.01}, .normal = {-1.0, 0.0, 0.0}};
+        request.bodies[0].velocity[0] = 0.8;
+        request.options.tolerance = 1e-6;
+        lab_solve(lab, &request, &result);
+        for (int c = 0; c < 2; c++)
+            impulse[c] = result.contacts[c].impulse;
+        assert_true(result.energy.damping > 0.05 * result.energy.available);
+        assert_true(result.restitution_model > 0.0);
+        near(result.energy.closure, 0.0, 1e-6 * result.energy.available);
+        request.options.method = PERCUSS_METHOD_CVODE;
+        lab_solve(lab, &request, &result);
+        for (int c = 0; c < 2; c++)
+            near_relative(result.contacts[c].impulse, impulse[c], 2e-6);
+        lab_free(lab);
+    }
+}
+
 static bool warned(const char *words)
 {
     for (size_t i = 0; i < result.warning_count; i++)
@@ -242,9 +278,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(powers_without_loss), cmocka_unit_test(hysteresis),
-        cmocka_unit_test(dissipation),         cmocka_unit_test(by_points),
-        cmocka_unit_test(beyond_the_points),   cmocka_unit_test(on_a_beam),
-        cmocka_unit_test(asked_for),
+        cmocka_unit_test(dissipation),         cmocka_unit_test(dissipation_in_a_row),
+        cmocka_unit_test(by_points),           cmocka_unit_test(beyond_the_points),
+        cmocka_unit_test(on_a_beam),           cmocka_unit_test(asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
