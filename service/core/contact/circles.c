@@ -218,48 +218,58 @@ VECTOR_CLONES static double press(struct circles *circles, const struct passage 
     return sum;
 }
 
-/* A vector's direction; that of another one where it has none. */
-static void direct(const double of[2], const double other[2], double to[2])
+/* Along a straight slip of `a` limits (elastically) a small angle between force and slip fades to
+ * exp(-a) of itself. The mean slip has the weight (1 - exp(-a) (1 + a))/(a - 1 + exp(-a)) of the
+ * direction at the start to that at the end; this is it to first order, and fades, too: equal
+ * weights would turn the force to and fro. */
+static double start_weight(double a)
 {
-    double size = hypot(of[0], of[1]);
-    to[0] = size > 0.0 ? of[0] / size : other[0];
-    to[1] = size > 0.0 ? of[1] / size : other[1];
+    return 1.0 / (1.0 + a / 3.0);
 }
 
-/* How far a circle's tangents slip along g, kappa times a direction, so that their elastic forces t
- * come back to the limit. NAN: along that direction they do not. */
-static double slip_along(const double t[2], const double g[2], double limit)
+/* Forces t over a circle's stiffness that come back to the limit from elastic ones by a slip with
+ * the direction of w n0 + n, n0 at the start and n at the end:
+ *
+ *   elastic = limit n + q (w n0 + n),   |n| = 1
+ *
+ * q >= 0 follows from a quadratic; the slip times kappa is q |w n0 + n|. */
+static void come_back(const double elastic[2], const double start[2], double weight, double limit,
+                      double end[2], double slip[2])
 {
-    double with = t[0] * g[0] + t[1] * g[1], square = g[0] * g[0] + g[1] * g[1];
-    double above = t[0] * t[0] + t[1] * t[1] - limit * limit;
-    return above / (with + sqrt(with * with - square * above));
+    double above = elastic[0] * elastic[0] + elastic[1] * elastic[1] - limit * limit;
+    double with = limit + weight * (elastic[0] * start[0] + elastic[1] * start[1]);
+    double under = with * with + (1.0 - weight * weight) * above;
+    double q = above / (with + sqrt(under));
+    for (int j = 0; j < 2; j++)
+        end[j] = (elastic[j] - q * weight * start[j]) / (limit + q);
+    for (int j = 0; j < 2; j++)
+        slip[j] = q * (weight * start[j] + end[j]);
 }
 
-/* The slip has the direction of the force in the middle of the way, that between the ones at its
- * ends: in rounds that each leave a part of what kappa and the way turn it by. */
-enum { DIRECTION_ROUNDS = 4 };
+/* Rounds that each leave their part of kappa's anisotropy; one where it has none. */
+enum { DIRECTION_ROUNDS = 6 };
 
+/* Brings elastic forces t above the limit back to it, from the direction of `before`, if any. */
 static void bring_back(const double kappa[3], double limit, const double before[2], double t[2])
 {
-    const double elastic[2] = {t[0], t[1]};
-    double end[2], start[2];
-    direct(t, t, end);
-    direct(before, end, start);
-    for (int round = 0; round < DIRECTION_ROUNDS; round++) {
-        bool turns = start[0] * end[0] + start[1] * end[1] > 0.0;
-        double middle[2] = {end[0] + (turns ? start[0] : 0.0), end[1] + (turns ? start[1] : 0.0)};
-        direct(middle, end, middle);
-        const double g[2] = {kappa[0] * middle[0] + kappa[1] * middle[1],
-                             kappa[1] * middle[0] + kappa[2] * middle[1]};
-        double slip = slip_along(elastic, g, limit);
-        if (!isfinite(slip))
-            break;
-        t[0] = elastic[0] - slip * g[0];
-        t[1] = elastic[1] - slip * g[1];
-        direct(t, end, end);
+    double mean = 0.5 * (kappa[0] + kappa[2]), apart = 0.5 * (kappa[0] - kappa[2]) / mean;
+    double size = hypot(before[0], before[1]), end[2], slip[2] = {0.0, 0.0};
+    const double elastic[2] = {t[0], t[1]}, between = kappa[1] / mean;
+    double start[2] = {0.0, 0.0}, weight = 0.0;
+    if (before[0] * t[0] + before[1] * t[1] > 0.0) {
+        start[0] = before[0] / size;
+        start[1] = before[1] / size;
+        weight = start_weight(hypot(t[0], t[1]) / limit - 1.0);
     }
-    t[0] = limit * end[0];
-    t[1] = limit * end[1];
+    int rounds = apart == 0.0 && between == 0.0 ? 1 : DIRECTION_ROUNDS;
+    for (int round = 0; round < rounds; round++) {
+        const double from[2] = {elastic[0] - (apart * slip[0] + between * slip[1]),
+                                elastic[1] - (between * slip[0] - apart * slip[1])};
+        come_back(from, start, weight, limit, end, slip);
+    }
+    double over = limit / hypot(end[0], end[1]);
+    t[0] = over * end[0];
+    t[1] = over * end[1];
 }
 
 /* The sums of a walk. */
@@ -277,11 +287,15 @@ static void drag(struct circles *circles, double now, size_t c, double limit, co
     const double e[2] = {to[0] * now - past[0], to[1] * now - past[1]};
     double t[2] = {kappa[0] * e[0] + kappa[1] * e[1], kappa[1] * e[0] + kappa[2] * e[1]};
     double square = t[0] * t[0] + t[1] * t[1];
-    if (square > limit * limit) {
+    if (!(limit > 0.0)) {
+        t[0] = t[1] = 0.0;
+        to[0] = past[0] / now;
+        to[1] = past[1] / now;
+    } else if (square > limit * limit) {
         double turns = stiffness * now * limit / sqrt(square);
         const double before[2] = {circles->drawn[0][c], circles->drawn[1][c]};
         bring_back(kappa, limit, before, t);
-        double x = limit > 0.0 ? t[0] / limit : 0.0, y = limit > 0.0 ? t[1] / limit : 0.0;
+        double x = t[0] / limit, y = t[1] / limit;
         sums->turning[0] += turns * (1.0 - x * x);
         sums->turning[1] += turns * (1.0 - y * y);
         sums->turning[2] -= turns * x * y;
