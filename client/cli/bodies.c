@@ -173,9 +173,12 @@ static size_t check_bodies(const struct percuss_body_list *list, json_t *array)
         size_t first = 0;
         while (strcmp(list->bodies[first].material, body->material) != 0)
             first++;
-        /* a yield that is not stated is not improbable, and not counted */
+        /* what is not stated is not improbable, and not counted */
         bool none = strstr(body->description, PLAUSIBLE_ELASTIC);
         if (first == b && plausible_unstated(&numbers, none, remarks))
+            tell(array, "materials", body->material, remarks);
+        bool stated = !isnan(body->loss_factor) || body->relaxation_count > 0;
+        if (first == b && plausible_lossless(&numbers, stated, remarks))
             tell(array, "materials", body->material, remarks);
         size_t count = first == b ? plausible_material(&numbers, remarks) : 0;
         for (size_t i = 0; i < count; i++)

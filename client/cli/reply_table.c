@@ -118,6 +118,12 @@ static struct pair_text pair_of(const double pair[2])
     return text;
 }
 
+/* 0 where it is rounding beside `scale`. */
+static double settled(double value, double scale)
+{
+    return fabs(value) <= NO_SLIP * scale ? 0.0 : value;
+}
+
 /* What friction does in a contact that has it. */
 static void print_friction(const struct percuss_contact_result *contact)
 {
@@ -128,10 +134,13 @@ static void print_friction(const struct percuss_contact_result *contact)
     printf("  tangential   %s N s", pair_of(contact->impulse_tangential).text);
     if (contact->impulse_tangential_error > 0.0)
         printf(" +- %.2g", contact->impulse_tangential_error);
+    const double before = hypot(contact->slip_before[0], contact->slip_before[1]);
+    const double after[2] = {settled(contact->slip_after[0], before),
+                             settled(contact->slip_after[1], before)};
     printf("\n  slip         %s m/s, after it %s m/s", pair_of(contact->slip_before).text,
-           pair_of(contact->slip_after).text);
+           pair_of(after).text);
     if (!isnan(contact->tangential_restitution))
-        printf("  (tangential restitution %.6g)", contact->tangential_restitution);
+        printf("  (tangential restitution %.6g)", settled(contact->tangential_restitution, 1.0));
     putchar('\n');
     /* the restitution by impulses may be above 1 where friction turns a body */
     if (!isnan(contact->restitution_kinematic))

@@ -101,6 +101,22 @@ static inline bool plausible_unstated(const struct plausible_body *body, bool no
     return true;
 }
 
+/* The same of a plastic, rubber or wood, which no metal, glass or ceramic is as soft as, and of
+ * which neither a loss_factor nor a relaxation is stated (`stated`); of improbable numbers nothing.
+ */
+static inline bool plausible_lossless(const struct plausible_body *body, bool stated,
+                                      struct plausible_remark *remark)
+{
+    struct plausible_remark others[PLAUSIBLE_MOST];
+    if (stated || !(body->young < 10e9) || plausible_material(body, others) > 0)
+        return false;
+    remark->key = "loss_factor";
+    snprintf(remark->text, sizeof remark->text,
+             "not stated: its contacts lose nothing by it; hard plastics have 0.02 to 0.1, rubber "
+             "0.05 to 1: state loss_factor, or 0");
+    return true;
+}
+
 static inline void plausible_say(struct plausible_remark *remark, const char *key,
                                  const char *format, double value, double bound)
     __attribute__((format(printf, 3, 0)));

@@ -71,6 +71,10 @@ static void remark_numbers(const struct body_set *set)
         if (first && plausible_unstated(&numbers, !body->yield_unstated, remarks))
             fprintf(stderr, "percussd: materials.%s.%s: %s\n", body->material.name, remarks->key,
                     remarks->text);
+        bool stated = !isnan(body->loss_factor) || body->relaxation.count > 0;
+        if (first && plausible_lossless(&numbers, stated, remarks))
+            fprintf(stderr, "percussd: materials.%s.%s: %s\n", body->material.name, remarks->key,
+                    remarks->text);
         count = plausible_size(&numbers, remarks);
         for (size_t i = 0; i < count; i++)
             fprintf(stderr, "percussd: warning: bodies.%s.%s: %s\n", body->id, remarks[i].key,

@@ -126,8 +126,8 @@ expect 0 percuss query --a ball --b stop --speed 0.3 --contact-model hertz
 says "contacts[0]: what stop loses $lost"
 says "; the tolerance is 0.001"
 expect 0 percuss query --a ball --b mat --speed 0.3
-says "contacts[0]: materials as soft as that of mat (young 5e+06 Pa) lose energy of themselves"
-says "a loss_factor is not stated"
+says "contacts[0]: materials as soft as that of mat (young 5 MPa) lose energy of themselves"
+says "as it has no loss_factor; state one"
 expect 0 percuss query --a ball --b spring --speed 0.3
 ! grep -q "energy of themselves\|of itself" "$err" || fail "0 is a statement"
 

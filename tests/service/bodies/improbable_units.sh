@@ -10,7 +10,7 @@ materials:
   steel: {young: 210 GPa, poisson: 0.3, density: 7.8}
   brass: {young: 100e3, poisson: 0.34, density: 8500}
   lead: {young: 16 MPa, poisson: 0.44, density: 11340}
-  rubber: {young: 16 MPa, poisson: 0.45, density: 1200}
+  rubber: {young: 16 MPa, poisson: 0.45, density: 1200, loss_factor: 0.1}
 bodies:
   ball: {shape: sphere, material: steel, radius: 8}
   pin: {shape: rod, material: brass, radius: 8 mm, length: 30 mm}
@@ -33,6 +33,15 @@ echo "$remarks" | while read -r remark; do
     says "percussd: warning: $remark"
 done
 [ "$(wc -l <"$err")" -eq 6 ] || fail "other warnings"
+
+say "rubber without a loss is named, which is no warning"
+sed -i 's/, loss_factor: 0.1}/}/' "$work/catalogue.yaml"
+expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+says "percussd: materials.rubber.loss_factor: not stated: its contacts lose nothing by it"
+[ "$(wc -l <"$err")" -eq 7 ] || fail "other lines"
+expect 1 "$bin/percuss" bodies --local --catalogue "$work/catalogue.yaml" --check
+shows "materials.rubber.loss_factor: not stated: its contacts lose nothing by it"
+sed -i 's/density: 1200}/density: 1200, loss_factor: 0}/' "$work/catalogue.yaml"
 
 say "so does percuss bodies --check of a daemon that runs"
 start_daemon

@@ -64,8 +64,13 @@ static void friction_is_told_where_it_is(void **state)
     /* one number, where there is nothing along the second tangent, and nothing of no error */
     reply.contacts[0].impulse_tangential[1] = 1e-18;
     reply.contacts[0].impulse_tangential_error = 0.0;
+    /* what sticks has the rounding of a slip */
+    reply.contacts[0].slip_before[1] = 0.0;
+    reply.contacts[0].slip_after[0] = reply.contacts[0].slip_after[1] = -1e-15;
+    reply.contacts[0].tangential_restitution = 1e-16;
     print(&request, &reply);
     expect("\n  tangential   51 N s\n");
+    expect("\n  slip         54 m/s, after it 0 m/s  (tangential restitution 0)\n");
     /* the second contact has none, as all contacts of older servers */
     assert_int_equal(count("  friction  "), 1);
     reply.contacts[0].friction = 0.0;

@@ -95,6 +95,27 @@ static void test_yields_that_are_not_stated(void **state)
     assert_false(unstated(NAN, NAN, INFINITY, false) || unstated(70e9, 2700.0, NAN, false));
 }
 
+static bool lossless(double young, bool stated)
+{
+    static const double extents[3] = {0.0};
+    const struct plausible_body body = {"sphere", young, 1200.0, INFINITY, extents};
+    return plausible_lossless(&body, stated, remarks);
+}
+
+/* Plastics and rubber; no metals, no mesh of several. */
+static void test_losses_that_are_not_stated(void **state)
+{
+    (void)state;
+    assert_true(lossless(5e6, false));
+    assert_string_equal(remarks[0].key, "loss_factor");
+    assert_string_equal(remarks[0].text,
+                        "not stated: its contacts lose nothing by it; hard plastics have 0.02 to "
+                        "0.1, rubber 0.05 to 1: state loss_factor, or 0");
+    assert_true(lossless(3e9, false));
+    assert_false(lossless(1e5, false)); /* Pa for MPa */
+    assert_false(lossless(3e9, true) || lossless(16e9, false) || lossless(NAN, false));
+}
+
 static void test_sizes(void **state)
 {
     (void)state;
@@ -126,6 +147,7 @@ int main(void)
         cmocka_unit_test(test_materials_that_there_are),
         cmocka_unit_test(test_materials_in_another_unit),
         cmocka_unit_test(test_yields_that_are_not_stated),
+        cmocka_unit_test(test_losses_that_are_not_stated),
         cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

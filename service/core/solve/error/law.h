@@ -97,7 +97,7 @@ void unstated_find(const struct problem *problem, size_t contact,
 double loss_deviation(const struct problem *problem, size_t contact, double rebound);
 
 /* Loss of a contact's restitution by the stated loss_factor of its materials, where its law does
- * not have it; `rebound` is the
+ * not have it, and by the least that soft ones have of which none is stated; `rebound` is the
  * restitution that the motion after the largest indentations makes. */
 double loss_of_contact(const struct problem *problem, size_t contact, double rebound);
 
