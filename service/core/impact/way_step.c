@@ -38,13 +38,15 @@ bool way_step_create(struct way_step **step, const struct scene *scene, struct a
     made->scene = scene;
     made->slopes = slopes_make();
     made->contact = arena_take(arena, n, sizeof *made->contact);
-    made->target = arena_take(arena, 3 * n, sizeof *made->target);
+    made->target = arena_take(arena, 4 * n, sizeof *made->target);
     made->matrix = arena_reserve(arena, unknowns * unknowns, sizeof(double));
+    made->press = arena_take(arena, n, sizeof *made->press);
     made->present = arena_take(arena, n, sizeof *made->present);
-    if (!made->contact || !made->target || !made->matrix || !made->present)
+    if (!made->contact || !made->target || !made->matrix || !made->press || !made->present)
         return false;
     made->approach = made->target + n;
-    made->missing = made->approach + n;
+    made->excess = made->approach + n;
+    made->change = made->excess + n;
     *step = made;
     for (size_t c = 0; c < n; c++)
         if (!way_contact_create(&made->contact[c], &scene->laws[c],
@@ -143,7 +145,7 @@ static void find_excess(struct way_step *step)
             find_rates(step, a, approach, rate);
         way_contact_forces(contact, rate, force);
         for (int i = 0; i < STEP_POINTS; i++)
-            step->missing[a][i] = contact->force[i] - force[i];
+            step->excess[a][i] = contact->force[i] - force[i];
     }
 }
 
@@ -160,32 +162,46 @@ static void find_slopes(const struct way_step *step, const struct way_contact *c
         }
 }
 
-/* The excess of contact a by the forces of b. */
-static void fill_pair(struct way_step *step, size_t a, size_t b, const struct way_block *all,
-                      const struct way_block *rates)
+/* The excess of contact a by the forces of b, in rows of the matrix from `row` on. */
+static void fill_pair(const struct way_step *step, size_t a, size_t b, const struct way_block *all,
+                      const struct way_block *rates, double *row)
 {
-    size_t size = step->scene->contacts * STEP_POINTS;
     const struct way_block *coupling = block_of(step, a, b);
     double residual = residual_of(step, a, b);
-    for (int i = 0; i < STEP_POINTS; i++) {
-        double *row = step->matrix + (a * STEP_POINTS + (size_t)i) * size + b * STEP_POINTS;
+    for (int i = 0; i < STEP_POINTS; i++, row += step->pressed * STEP_POINTS)
         for (int j = 0; j < STEP_POINTS; j++) {
             double sum = a == b && i == j ? 1.0 : 0.0;
             for (int l = 0; l < STEP_POINTS; l++)
                 sum += all->by[i][l] * coupling->by[l][j];
             row[j] = sum - rates->by[i][j] * residual;
         }
-    }
 }
 
+/* Whether a contact has a force or gets one: others stay as they are. */
+static bool presses(const struct way_contact *contact)
+{
+    bool any = bears(contact);
+    for (int i = 0; i < STEP_POINTS; i++)
+        for (int j = 0; j < STEP_POINTS; j++)
+            any = any || contact->slope[i][j] != 0.0;
+    return any;
+}
+
+/* The system of the contacts that press. */
 static void fill_matrix(struct way_step *step)
 {
     size_t n = step->scene->contacts;
-    for (size_t a = 0; a < n; a++) {
+    step->pressed = 0;
+    for (size_t c = 0; c < n; c++)
+        if (presses(&step->contact[c]))
+            step->press[step->pressed++] = c;
+    for (size_t p = 0; p < step->pressed; p++) {
         struct way_block all, rates;
-        find_slopes(step, &step->contact[a], &all, &rates);
-        for (size_t b = 0; b < n; b++)
-            fill_pair(step, a, b, &all, &rates);
+        double *rows = step->matrix + p * STEP_POINTS * step->pressed * STEP_POINTS;
+        find_slopes(step, &step->contact[step->press[p]], &all, &rates);
+        for (size_t q = 0; q < step->pressed; q++)
+            fill_pair(step, step->press[p], step->press[q], &all, &rates, rows + q * STEP_POINTS);
+        memcpy(step->change[p], step->excess[step->press[p]], sizeof step->change[p]);
     }
 }
 
@@ -207,17 +223,17 @@ struct way_progress {
 static struct way_progress improve(struct way_step *step)
 {
     struct way_progress progress = {0.0, 0.0, 0.0};
-    for (size_t a = 0; a < step->scene->contacts; a++) {
-        struct way_contact *contact = &step->contact[a];
+    for (size_t p = 0; p < step->pressed; p++) {
+        struct way_contact *contact = &step->contact[step->press[p]];
         double stiffest = 0.0;
         for (int i = 0; i < STEP_POINTS; i++) {
-            contact->force[i] -= step->missing[a][i];
+            contact->force[i] -= step->change[p][i];
             stiffest = larger(stiffest, fabs(contact->slope[i][i]));
         }
-        progress.change = larger(progress.change, largest_of(step->missing[a]));
+        double reach = stiffest * largest_of(step->target[step->press[p]]);
+        progress.change = larger(progress.change, largest_of(step->change[p]));
         progress.force = larger(progress.force, largest_of(contact->force));
-        progress.rounding =
-            larger(progress.rounding, ROUNDING * stiffest * largest_of(step->target[a]));
+        progress.rounding = larger(progress.rounding, ROUNDING * reach);
     }
     return progress;
 }
@@ -239,7 +255,7 @@ static bool solve_forces(struct way_step *step, double last, unsigned long *iter
         find_excess(step);
         fill_matrix(step);
         ++*iterations;
-        if (!linear_solve(step->scene->contacts * STEP_POINTS, step->matrix, step->missing[0]))
+        if (!linear_solve(step->pressed * STEP_POINTS, step->matrix, step->change[0]))
             return false;
         struct way_progress progress = improve(step);
         if (!isfinite(progress.change))

@@ -26,8 +26,9 @@ struct way_step {
     /* of the step to be solved, [contact]: d and the approach at the points without the contacts'
      * forces */
     double (*target)[STEP_POINTS], (*approach)[STEP_POINTS];
-    double (*missing)[STEP_POINTS];          /* [contact]: what Newton's system is solved for */
-    double *matrix;                          /* (contacts STEP_POINTS)^2 */
+    double (*excess)[STEP_POINTS];           /* [contact]: of the forces over the law's */
+    size_t *press, pressed;                  /* contacts that press: Newton's system is theirs, */
+    double *matrix, (*change)[STEP_POINTS];  /* with the changes of their forces */
     double *present;                         /* [contact]: forces where the step begins, N */
     struct way_block *coupling[STEP_LEVELS]; /* [contacts^2]; NULL: not yet */
     int level;                               /* of the step just solved */
