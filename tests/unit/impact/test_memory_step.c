@@ -5,6 +5,7 @@
  * contact/recovery.c: viscoelastic contacts against Prony's series where the indentation is held,
  * against the circles of the contact integrated one by one (Ting's rule without its parabola, and
  * free circles), and their energy. */
+#include "impact/impact_scale.h"
 #include "impact/way_contact.h"
 #include "unit/impact/one_by_one.h"
 #include "unit/impact/toy_scene.h"
@@ -63,6 +64,48 @@ static void free_circles_recover_by_modes(void **state)
         near_relative(loaded[i], 1.0 / 0.2, 1e-13);
     }
 }
+
+/* A surface that has fallen behind the ball in the middle bears nothing there, nor where it would
+ * farther out: no edge, and none that a contact could turn at. */
+static void what_is_below_in_the_middle_has_no_edge(void **state)
+{
+    (void)state;
+    static const double falling[] = {-1e-3, -1.0, 0.2}, rising[] = {-1e-3, 1.0, -1.0},
+                        pressed[] = {1e-3, -1.0, 0.0}, everywhere[] = {1e-3, 1.0, 1.0};
+    assert_true(contact_memory_edge(-1.0, falling, 2.0) < 0.0);
+    assert_true(contact_memory_edge(-1.0, rising, 2.0) < 0.0);
+    near(contact_memory_edge(-1.0, pressed, 2.0), 1e-3, 1e-18);
+    assert_true(contact_memory_edge(-1.0, everywhere, 2.0) == 2.0);
+    assert_true(contact_memory_edge(3.0, rising, 2.0) == 3.0);
+}
+
+/* Steps are shares of the contact of a sudden force: 1/2 v^2 = 2/5 k d^(5/2) of a unit mass,
+ * whatever comes back in the end. */
+static void the_sudden_force_is_the_scale(void **state)
+{
+    (void)state;
+    static const struct relaxation of = {2, {0.5, 0.4}, {0.2, 3.0}};
+    struct toy toy;
+    toy_init(&toy, 1);
+    toy.laws[0] = contact_law_viscoelastic(2.0, &of);
+    const struct impact_scale scale = impact_scale_of(&toy.scene, 0, -0.3);
+    double d = pow(0.5 * 0.09 / (0.4 * 2.0), 0.4);
+    near_relative(scale.indentation, d, 1e-12);
+    near_relative(scale.duration, d / 0.3, 1e-12);
+    near_relative(scale.force, 2.0 * d * sqrt(d), 1e-12);
+    toy_free(&toy);
+}
+
+/* The body that is hit: an oscillator with the participation phi, which hits the ball again. */
+struct wall {
+    double omega, phi;
+    double until; /* s; 0: a rigid wall, until the ball parts */
+};
+
+/* A unit mass at unit speed on k = 1, with circles of equal depths: their displacements u and arms
+ * m, time m' = u - m, exactly for displacements linear in a step. One that is free has u - sum
+ * share m = 0. Returns the restitution. */
+enum { CIRCLES = 900 };
 
 static double with_circles(const struct relaxation *of, const struct wall *wall)
 {
@@ -214,6 +257,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_held_contact_relaxes),
         cmocka_unit_test(free_circles_recover_by_modes),
+        cmocka_unit_test(what_is_below_in_the_middle_has_no_edge),
+        cmocka_unit_test(the_sudden_force_is_the_scale),
         cmocka_unit_test(balls_rebound_by_tings_rule),
         cmocka_unit_test(second_blows_find_a_surface_that_recovers),
         cmocka_unit_test(what_does_not_touch_is_no_blow),
