@@ -29,7 +29,7 @@ void way_contact_begin(struct way_contact *contact, double time, double approach
 {
     bool left = contact->memory && memory_step_begin(contact->memory, time);
     contact->parted = left || !touches;
-    contact->approach = contact->pressed = approach;
+    contact->approach = contact->own_approach = approach;
 }
 
 void way_contact_touch(struct way_contact *contact, double time)
@@ -98,7 +98,7 @@ bool way_contact_bends(const struct way_contact *contact)
         return true;
     /* it touches again what it had parted from */
     if (!contact->memory)
-        return contact->parted && bears && contact->pressed > 0.0;
+        return contact->parted && bears && contact->own_approach > 0.0;
     const struct way_taken ends = {.nodes = contact->indentation,
                                    .end = contact->indentation[NODES],
                                    .end_force = contact->force[NODES]};
@@ -118,7 +118,7 @@ static double work_of(const struct way_contact *contact, const struct way_slopes
 {
     double sum = 0.0;
     for (int i = 0; i < NODES; i++) {
-        double rate = slopes->by[i][0] * contact->pressed;
+        double rate = slopes->by[i][0] * contact->own_approach;
         for (int j = 0; j < STEP_POINTS; j++)
             rate += slopes->by[i][j + 1] *
                     (contact->indentation[j] + contact->compliance * contact->force[j]);
@@ -164,7 +164,7 @@ void way_contact_take(struct way_contact *contact, const struct way_slopes *slop
     contact->work += work_of(contact, slopes);
     note_force(contact, &taken);
     contact->approach = approach;
-    contact->pressed = taken.end + contact->compliance * taken.end_force;
+    contact->own_approach = taken.end + contact->compliance * taken.end_force;
     if (contact->memory)
         memory_step_take(contact->memory, &taken, contact->parted);
 }

@@ -28,7 +28,7 @@ struct way_contact {
     struct memory_step *memory; /* of a law that remembers, else NULL */
     double compliance;          /* its own, in series, m/N */
     double approach;            /* of the bodies, where the step begins, m */
-    double pressed;             /* d + compliance F there */
+    double own_approach;        /* d + compliance F there */
     double indentation[STEP_POINTS], force[STEP_POINTS];
     double slope[STEP_POINTS][STEP_POINTS]; /* of the law's forces by all indentations, N/m */
     double viscosity[STEP_POINTS];          /* and by the approach's rates there, N s/m */
