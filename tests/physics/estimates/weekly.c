@@ -18,8 +18,8 @@ static const double EFFORT = 3e7;
 static const double UNCOVERED_RATE = 0.05;
 static const double WRONG_RATE = 3e-3;
 /* A program that just keeps these promises may fail a check by chance in so many draws. There are
- * 11 classes x (3 tolerances of coverage + 1 of wrong ones) + 1 checks a week, 52 weeks: 2300 checks
- * a year, one failure by chance in 9 years. Of 50 scenes it lets 10 be uncovered (2.5 are
+ * 11 classes x (3 tolerances of coverage + 1 of wrong ones) + 1 checks a week, 52 weeks: 2300
+ * checks a year, one failure by chance in 9 years. Of 50 scenes it lets 10 be uncovered (2.5 are
  * expected) and 3 be wrong; of all 550, 9. */
 static const double CHANCE = 5e-5;
 

@@ -5,7 +5,6 @@
  * by both methods, with their scales, starts and audits. */
 #include "impact/impact_scale.h"
 #include "impact/march.h"
-#include "model/relaxation.h"
 #include "unit/impact/toy_scene.h"
 
 static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy, double horizon)
@@ -243,11 +242,6 @@ static void scales_follow_from_the_energy(void **state)
             measured("force", scale.force, k * pow(depth, 1.5), 1e-8 * k * pow(depth, 1.5));
         }
     }
-    /* a law that remembers is as stiff as suddenly, whatever relaxes later */
-    static const struct relaxation half = {1, {0.5}, {1.0}};
-    toy.laws[0] = contact_law_viscoelastic(1e6, &half);
-    measured("viscoelastic", impact_scale_of(&toy.scene, 0, -1.0).indentation,
-             pow(1.25 * 0.25 / 1e6, 0.4), 1e-9);
     struct impact_scale rest = impact_scale_of(&toy.scene, 0, 0.0);
     assert_true(isfinite(rest.duration) && rest.indentation >= 0.0 && rest.duration > 0.0);
     toy_free(&toy);

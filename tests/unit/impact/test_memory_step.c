@@ -96,17 +96,6 @@ static void the_sudden_force_is_the_scale(void **state)
     toy_free(&toy);
 }
 
-/* The body that is hit: an oscillator with the participation phi, which hits the ball again. */
-struct wall {
-    double omega, phi;
-    double until; /* s; 0: a rigid wall, until the ball parts */
-};
-
-/* A unit mass at unit speed on k = 1, with circles of equal depths: their displacements u and arms
- * m, time m' = u - m, exactly for displacements linear in a step. One that is free has u - sum
- * share m = 0. Returns the restitution. */
-enum { CIRCLES = 900 };
-
 static double with_circles(const struct relaxation *of, const struct wall *wall)
 {
     static const struct spin none = {0.0, 0.0, 0.0, 0.0};
