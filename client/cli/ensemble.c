@@ -93,7 +93,12 @@ static void add_input(struct ensemble *ensemble, const char *text, bool speed,
 {
     struct percuss_ensemble_request *request = ensemble->request;
     struct input_fault fault;
-    /* the speed is an input with an option of its own */
+    /* the speed is an input with an option of its own, and may be stated as others are, too */
+    static const char as_input[] = "speed=";
+    if (!speed && strncmp(text, as_input, sizeof as_input - 1) == 0) {
+        speed = true;
+        text += sizeof as_input - 1;
+    }
     if (speed && ensemble->has_speed)
         argp_error(state, "--speed: given twice");
     ensemble->has_speed = ensemble->has_speed || speed;

@@ -103,6 +103,12 @@ expect 5 ensemble --input "colour@al-beam=1"
 says "must be one of speed"
 expect 2 ensemble --input "young@al-beam=list:$work/none.csv"
 says "No such file"
+expect 2 ensemble --input speed=0.3
+says "--speed: given twice"
+expect 0 ensemble --samples 20
+grep -v "samples  " "$out" >"$work/by_option"
+expect 0 percuss ensemble --a steel-sphere --b al-beam --input speed=uniform:0.089:0.411 --samples 20
+grep -v "samples  " "$out" | cmp - "$work/by_option" || fail "--input speed= is another input than --speed"
 expect 0 "$peers/wire_ensembles" "$domain"
 cat "$out"
 
