@@ -295,6 +295,7 @@ static bool find_loss(struct problem *problem, size_t c)
     }
     double sudden = compliance[0] + compliance[1];
     loss->relaxation = relaxation_in_series(&own[0], compliance[0] / sudden, &own[1]);
+    loss->frequency = 0.5 * omega / M_PI;
     loss->loss_factor = relaxation_loss_factor(&loss->relaxation, omega);
     loss->law =
         contact_law_viscoelastic(problem->hertz[c].stiffness * before / sudden, &loss->relaxation);

@@ -17,7 +17,8 @@
 struct contact_loss {
     struct contact_law law;       /* in place of Hertz's */
     struct relaxation relaxation; /* of both bodies */
-    double loss_factor;           /* of both, at the contact's frequency */
+    double frequency;             /* the contact's, Hz */
+    double loss_factor;           /* of both, there */
 };
 
 /* One contact. */

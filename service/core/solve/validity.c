@@ -459,7 +459,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     if (problem->contact_model.choices[c].own) {
         find_end_of_points(problem, outcome, c, warnings);
     } else {
-        if (!contact_model_used(problem)->curve)
+        if (!problem->contact_model.laws[c].operations->curve)
             find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
         find_size(problem, outcome, c, axes[0], warnings);
         find_place(problem, outcome, c, axes[0], warnings);

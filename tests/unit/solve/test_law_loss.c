@@ -469,6 +469,53 @@ static void one_contact_of_a_group_is_as_alone(void **state)
     lab_free(lab);
 }
 
+/* The error of a row: a ball that comes down onto one at rest on a wall, of which the loss was
+ * measured at the frequency; 0: at that of the impact. */
+static double row_off_by(struct lab *lab, double eta, double frequency)
+{
+    struct body ball = lossy(make_sphere(ACRYLIC, 0.01), eta);
+    if (frequency > 0.0)
+        ball.loss_frequency = frequency;
+    lab_add(lab, "ball", ball);
+    struct solve_request request = {.body_count = 1};
+    strcpy(request.bodies[0].id, "wall");
+    request.bodies[0].orientation[0] = 1.0;
+    add_ball(&request, "ball", (double[]){0.0, 0.0, 0.0}, 0.01, 0, 0.0);
+    add_ball(&request, "ball", (double[]){0.0, 0.0, 0.02}, 0.01, 1, 1.0);
+    request.options.contact_model = PERCUSS_CONTACT_AUTO;
+    lab_solve(lab, &request, &result);
+    return result.restitution_model;
+}
+
+/* The contact at rest has the frequency of the one that approaches: measured there, nothing is
+ * lacked; far off, both errors hold what the standard solid lacks, although the ball in the middle
+ * comes back faster than it was met. */
+static void a_row_measured_far_off_is_less_certain(void **state)
+{
+    (void)state;
+    const double eta = 0.05;
+    struct lab *lab = lab_create();
+    lab_add(lab, "wall", rigid_wall());
+    double known = row_off_by(lab, eta, 0.0), errors[2];
+    /* two such balls: half of the modulus and of the mass of one on a wall, and half of its radius
+     */
+    double near = hertz_frequency(make_sphere(ACRYLIC, 0.01)) * pow(0.5, 0.2);
+    for (size_t c = 0; c < 2; c++)
+        errors[c] = result.contacts[c].impulse_error_model;
+    near_relative(row_off_by(lab, eta, near), known, 1e-12);
+    assert_false(warns("measured at"));
+    row_off_by(lab, eta, 1e-3 * near);
+    assert_true(warns("contacts[0]: the loss_factor of ball (0.05) was measured at") &&
+                warns("contacts[1]: the loss_factor of ball (0.05) was measured at"));
+    /* nearly the whole of eta is lacked: 0.77 of pi/2 of it beside 0.3 */
+    for (size_t c = 0; c < 2; c++) {
+        double grown = result.contacts[c].impulse_error_model / errors[c];
+        print_message("contact %zu: error %.3g, %.3f times\n", c, errors[c], grown);
+        assert_true(grown > 2.2 && grown < 0.77 / 0.3 * 1.06);
+    }
+    lab_free(lab);
+}
+
 /* Where a contact yields, those that cannot keep their loss, and it is told of those that lose it.
  */
 static void beside_one_that_yields(void **state)
@@ -528,6 +575,7 @@ int main(void)
         cmocka_unit_test(other_contacts_have_none),
         cmocka_unit_test(groups_lose_by_both_methods),
         cmocka_unit_test(one_contact_of_a_group_is_as_alone),
+        cmocka_unit_test(a_row_measured_far_off_is_less_certain),
         cmocka_unit_test(beside_one_that_yields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -452,7 +452,7 @@ static double measured_loss_deviation(const struct problem *problem, size_t cont
  * lack. */
 static void lacking_loss(const struct problem *problem, size_t contact, double part[2])
 {
-    double frequency = 0.5 * problem_frequency(problem, contact) / M_PI;
+    double frequency = problem->contact_model.choices[contact].loss->frequency;
     for (int which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, contact, which);
         part[which] = 0.0;
@@ -463,10 +463,13 @@ static void lacking_loss(const struct problem *problem, size_t contact, double p
 }
 
 /* What they change: a force like half a sine loses 0.77 of what half a cycle does (the integral of
- * w |F|^2 over all frequencies), and nothing gives back more than it took. */
-static double distance_deviation(const double part[2], double rebound)
+ * w |F|^2 over all frequencies), and nothing gives back more than it took; but in a group it may be
+ * another contact that the bodies come back from. */
+static double distance_deviation(const struct problem *problem, const double part[2],
+                                 double rebound)
 {
-    return fmin(rebound * expm1(0.77 * M_PI_2 * (part[0] + part[1])), 1.0 - rebound);
+    double change = rebound * expm1(0.77 * M_PI_2 * (part[0] + part[1]));
+    return problem->contact_count == 1 ? smaller(change, 1.0 - rebound) : change;
 }
 
 double loss_deviation(const struct problem *problem, size_t contact, double rebound)
@@ -478,8 +481,8 @@ double loss_deviation(const struct problem *problem, size_t contact, double rebo
     if (!has_loss(problem, contact))
         return 0.0;
     lacking_loss(problem, contact, part);
-    return fmax(measured_loss_deviation(problem, contact, rebound),
-                distance_deviation(part, rebound));
+    return larger(measured_loss_deviation(problem, contact, rebound),
+                  distance_deviation(problem, part, rebound));
 }
 
 /* The bodies' parts of the contact's loss factor, 0 where none is stated, or is in the answer;
@@ -571,7 +574,7 @@ static void find_distant_loss(const struct problem *problem, size_t contact, dou
 {
     double part[2];
     lacking_loss(problem, contact, part);
-    double change = distance_deviation(part, rebound);
+    double change = distance_deviation(problem, part, rebound);
     if (!(change > problem->tolerance) ||
         !(change > measured_loss_deviation(problem, contact, rebound)))
         return;
@@ -584,7 +587,7 @@ static void find_distant_loss(const struct problem *problem, size_t contact, dou
                 "contact has %.4g Hz: its loss may be another one, which may change the "
                 "restitution by %.2g; state one measured nearer, or a relaxation",
                 contact, body->id, body->loss_factor, body->loss_frequency,
-                0.5 * problem_frequency(problem, contact) / M_PI, change);
+                problem->contact_model.choices[contact].loss->frequency, change);
     }
 }
 
