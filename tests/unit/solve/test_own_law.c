@@ -158,6 +158,33 @@ static bool warned(const char *words)
     return false;
 }
 
+/* Beside a contact with a law another one yields, as it would without, and is not told that Hertz's
+ * law leaves no dent. */
+static void beside_one_that_yields(void **state)
+{
+    (void)state;
+    static const struct material soft = {"soft", 210e9, 0.30, 7850.0, 200e6, 0.0};
+    static const char *const ids[] = {"pad", "ball", "soft"};
+    struct own_law law = {.stiffness = 1e9, .exponent = 1.5, .dissipation = 0.1, .deviation = 0.05};
+    struct lab *lab = with_law(&law);
+    lab_add(lab, "soft", make_sphere(soft, 0.01));
+    struct solve_request request = {.body_count = 3, .contact_count = 2};
+    for (unsigned b = 0; b < 3; b++) {
+        strcpy(request.bodies[b].id, ids[b]);
+        request.bodies[b].position[0] = 0.02 * b;
+        request.bodies[b].orientation[0] = 1.0;
+    }
+    for (unsigned c = 0; c < 2; c++)
+        request.contacts[c] = (struct solve_contact){
+            .a = c, .b = c + 1, .point = {0.02 * c + 0.01}, .normal = {-1.0, 0.0, 0.0}};
+    request.bodies[0].velocity[0] = 1.0;
+    lab_solve(lab, &request, &result);
+    assert_int_equal(result.contact_model, PERCUSS_CONTACT_LAW);
+    assert_true(result.energy.plastic > 0.2 * result.energy.available);
+    assert_false(warned("leaves no dent"));
+    lab_free(lab);
+}
+
 /* Hertz's law as points is Hertz's law; an unloading curve gives back its own area, also from other
  * indentations than the last one. */
 static void by_points(void **state)
@@ -277,10 +304,15 @@ static void asked_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(powers_without_loss), cmocka_unit_test(hysteresis),
-        cmocka_unit_test(dissipation),         cmocka_unit_test(dissipation_in_a_row),
-        cmocka_unit_test(by_points),           cmocka_unit_test(beyond_the_points),
-        cmocka_unit_test(on_a_beam),           cmocka_unit_test(asked_for),
+        cmocka_unit_test(powers_without_loss),
+        cmocka_unit_test(hysteresis),
+        cmocka_unit_test(dissipation),
+        cmocka_unit_test(dissipation_in_a_row),
+        cmocka_unit_test(beside_one_that_yields),
+        cmocka_unit_test(by_points),
+        cmocka_unit_test(beyond_the_points),
+        cmocka_unit_test(on_a_beam),
+        cmocka_unit_test(asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
