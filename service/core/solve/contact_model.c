@@ -270,7 +270,7 @@ static const char *why_lossless(const struct problem *problem)
     bool stated = false;
     for (size_t c = 0; c < problem->contact_count; c++)
         stated = stated || states_loss(problem, c);
-    if (!stated && rubbing(problem) == 0)
+    if (!stated)
         return "the material of a body must state a loss_factor above 0 or a relaxation";
     const struct contact_law law = contact_law_viscoelastic(0.0, NULL);
     return contact_law_refuses(&law, rubbing(problem));
