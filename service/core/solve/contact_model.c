@@ -329,7 +329,7 @@ static void use_laws(struct problem *problem, bool yielding)
         const struct contact_choice *choice = &model->choices[c];
         if (choice->own)
             model->laws[c] = choice->plastic;
-        else if (choice->loss && (asked || !yielding || choice->side < 0))
+        else if (choice->loss && (asked || !yielding || !choice->yields))
             model->laws[c] = choice->loss->law;
         else
             model->laws[c] =
@@ -357,10 +357,15 @@ enum percuss_status contact_model_choose(struct problem *problem, const struct b
         enum percuss_status status = find_law(problem, catalogue, tables, c, fault);
         if (status)
             return status;
-        dented = dented || model->choices[c].dented;
-        likely = likely || problem_indentation(problem, c, smaller(0.0, problem->gap_rate[c])) >
-                               model->choices[c].yield;
+        struct contact_choice *choice = &model->choices[c];
+        choice->yields =
+            problem_indentation(problem, c, smaller(0.0, problem->gap_rate[c])) > choice->yield;
+        dented = dented || choice->dented;
+        likely = likely || choice->yields;
     }
+    /* what is decided now may come out as if it yielded */
+    for (size_t c = 0; dented && c < n; c++)
+        model->choices[c].yields = model->choices[c].side >= 0;
     enum percuss_status status = find_lossy(problem, fault);
     if (status)
         return status;
@@ -395,13 +400,17 @@ bool contact_model_revise(struct problem *problem, const struct impact_outcome *
         return false;
     if (model->decided)
         return false;
-    bool yields = false;
-    for (size_t c = 0; c < problem->contact_count; c++)
-        yields =
-            yields || (model->yielding ? contact_model_yielded(problem, outcome, c)
-                                       : outcome_deepest(outcome, c) > model->choices[c].yield);
+    bool yields = false, others = false; /* of those with a loss */
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        struct contact_choice *choice = &model->choices[c];
+        bool here = model->laws[c].operations->curve ? contact_model_yielded(problem, outcome, c)
+                                                     : outcome_deepest(outcome, c) > choice->yield;
+        others = others || (choice->loss && here != choice->yields);
+        choice->yields = here;
+        yields = yields || here;
+    }
     model->decided = true;
-    if (yields == model->yielding)
+    if (yields == model->yielding && !(yields && others))
         return false;
     use_laws(problem, yields);
     return true;

@@ -27,6 +27,7 @@ struct contact_choice {
     double yield;               /* indentation at which Hertz ends, m; INFINITY: never */
     int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
     size_t dent;                /* index in that body's state of the dent that the law remembers */
+    bool yields;                /* it is likely to, or did in a solution */
     bool dented, tabulated;
     bool family;               /* the table is one of the family's */
     bool both;                 /* ... where both bodies flow */
