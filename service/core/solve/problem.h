@@ -51,12 +51,12 @@ struct contact_rate {
 
 /* The contacts' laws, see contact_model.h. */
 struct contact_model {
-    bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
-    bool decided;                   /* by the request, or by a solution */
-    double *depth;                  /* [contact]: of the dents under it, m */
-    struct contact_law *laws;       /* [contact]: in use */
-    struct contact_choice *choices; /* [contact] */
-    struct contact_rate *rates;     /* [contact] */
+    bool yielding;                             /* plastic laws are in use; false: none is */
+    bool decided;                              /* by the request, or by a solution */
+    double *depth;                             /* [contact]: of the dents under it, m */
+    struct contact_law *laws;                  /* [contact]: in use */
+    struct contact_choice *choices;            /* [contact] */
+    struct contact_rate *rates;                /* [contact] */
     const struct contact_table_remedy *remedy; /* of tables that are missing; NULL: none is known */
 };
 
