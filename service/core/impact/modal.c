@@ -698,7 +698,7 @@ NOT_INLINE static void keep_way(struct modal_run *run, size_t c, double start)
     struct track *track = &run->march.outcome->tracks[c];
     if (!is_lossy(run, c))
         return;
-    way_step_take(run->step.way, c, start, run->step.end_force);
+    way_step_take(run->step.way, c, start);
     if (!run->march.closed[c])
         return;
     track->largest_force = way->largest;

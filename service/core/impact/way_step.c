@@ -308,13 +308,12 @@ bool way_step_solve(struct way_step *step, int level, double (*const indentation
 
 /* ---- Accepted steps ---- */
 
-void way_step_take(struct way_step *step, size_t contact, double time, const double *end_force)
+void way_step_take(struct way_step *step, size_t contact, double time)
 {
     struct way_contact *of = &step->contact[contact];
-    double approach = of->indentation[NODES];
-    for (size_t row = 0; row < step->scene->rows; row++)
-        approach += residual_of(step, contact, row) * end_force[row];
-    way_contact_take(of, &step->slopes, step->level, time, approach);
+    double approach[STEP_POINTS];
+    place_contact(step, contact, approach);
+    way_contact_take(of, &step->slopes, step->level, time, approach[NODES]);
     step->present[contact] = of->force[NODES];
 }
 

@@ -45,9 +45,8 @@ bool way_step_prepare(struct way_step *step, int level, struct arena *arena);
 bool way_step_solve(struct way_step *step, int level, double (*const indentation)[NODES],
                     double last, unsigned long *iterations);
 
-/* Accepts the step just solved, which began at `time`, for a contact of a lossy law; the forces of
- * all rows at its end. */
-void way_step_take(struct way_step *step, size_t contact, double time, const double *end_force);
+/* Accepts the step just solved, which began at `time`, for a contact of a lossy law. */
+void way_step_take(struct way_step *step, size_t contact, double time);
 
 /* What all of these have lost so far, with these indentations, J. */
 double way_step_lost(const struct way_step *step, const double *indentation);

@@ -167,6 +167,35 @@ static void slides_keep_their_direction(void **state)
     }
 }
 
+/* Hunt and Crossley's law with a residual flexibility that the normal shares with the tangents. The
+ * approach whose rate the law has is without it. One that jumped where steps meet, as the tangents'
+ * cubics and their forces at the end differ, would gain energy without an end. */
+static void rates_are_without_the_tangents(void **state)
+{
+    (void)state;
+    static const double dissipation[] = {0.5, 2.0}, soft[] = {0.2, 0.15, -0.1};
+    static const double accuracy[] = {1e-8, 1e-6, 1e-4}, off[] = {0.0, 1e-4, 1e-3};
+    for (size_t i = 0; i < COUNT(dissipation) * COUNT(accuracy); i++) {
+        struct scene_friction friction = {.coefficient = 0.4, .ratio = {0.8, 0.1, 0.7}};
+        static double fine[3];
+        size_t a = i % COUNT(accuracy);
+        struct toy toy;
+        make_ball(&toy, &friction, 1.2);
+        toy.gap_rate[2] = -0.2;
+        toy.laws[0] = contact_law_dissipative(1.0, 1.5, dissipation[i / COUNT(accuracy)]);
+        for (size_t p = 0; p < 9; p++)
+            toy.residual[p] = soft[p / 3] * soft[p % 3];
+        const struct impact_outcome outcome = toy_run(&toy, accuracy[a], 60.0);
+        if (a == 0)
+            memcpy(fine, outcome.motion.gap_rate, sizeof fine);
+        assert_true(outcome.end_reason == PERCUSS_END_SEPARATED);
+        measured("closure", outcome.energy.closure / outcome.energy.available, 0.0, 1e-4);
+        for (size_t r = 0; r < 3; r++)
+            measured("rate", outcome.motion.gap_rate[r], fine[r], off[a]);
+        toy_free(&toy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +204,7 @@ int main(void)
         cmocka_unit_test(second_blows_find_what_was_left),
         cmocka_unit_test(without_a_loss_they_are_the_cells),
         cmocka_unit_test(slides_keep_their_direction),
+        cmocka_unit_test(rates_are_without_the_tangents),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
