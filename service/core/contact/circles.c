@@ -277,8 +277,8 @@ struct sums {
     double force[2], stuck, turning[3], stored;
 };
 
-/* The tangents of a circle: `past` of its springs, `to` the displacements at the end. `limit`: over
- * the circle's stiffness. */
+/* The tangents of a circle that is pressed: `past` of its springs, `to` the displacements at the
+ * end. `limit` > 0: over the circle's stiffness. */
 static void drag(struct circles *circles, double now, size_t c, double limit, const double past[2],
                  double to[2], struct sums *sums)
 {
@@ -287,11 +287,7 @@ static void drag(struct circles *circles, double now, size_t c, double limit, co
     const double e[2] = {to[0] * now - past[0], to[1] * now - past[1]};
     double t[2] = {kappa[0] * e[0] + kappa[1] * e[1], kappa[1] * e[0] + kappa[2] * e[1]};
     double square = t[0] * t[0] + t[1] * t[1];
-    if (!(limit > 0.0)) {
-        t[0] = t[1] = 0.0;
-        to[0] = past[0] / now;
-        to[1] = past[1] / now;
-    } else if (square > limit * limit) {
+    if (square > limit * limit) {
         double turns = stiffness * now * limit / sqrt(square);
         const double before[2] = {circles->drawn[0][c], circles->drawn[1][c]};
         bring_back(kappa, limit, before, t);
@@ -333,11 +329,12 @@ static void slide(struct circles *circles, const struct passage *passage,
     for (size_t i = 0; i < n; i++) {
         size_t c = first + i;
         double part = closed_part(circles->indentation, target->indentation, circles->depth[c]);
+        double limit = coefficient * circles->pressed[c];
         const double before[2] = {past[0][i], past[1][i]};
         double end[2] = {moved[0][i] + part * way[0], moved[1][i] + part * way[1]};
-        if (circles->pressed[c] > 0.0)
-            drag(circles, passage->now, c, coefficient * circles->pressed[c], before, end, sums);
-        else
+        if (limit > 0.0)
+            drag(circles, passage->now, c, limit, before, end, sums);
+        else /* free: it gives nothing back */
             for (int j = 0; j < 2; j++) {
                 end[j] = before[j] / passage->now;
                 circles->drawn[j][c] = 0.0;

@@ -49,8 +49,7 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
  *
  * A law that remembers (viscoelastic bodies) has a force of the whole way since the touch: `force`
  * and `stored` are those of a sudden indentation and of what comes back of one that is held, and
- * its own force is contact/memory.h, which impact/memory_step.h follows along the steps of a
- * contact.
+ * its own force is contact/memory.h, which impact/memory_step.h follows along a contact's steps.
  *
  * A law with `moving` has a force of the indentation and its rate, for which impact/way_contact.h
  * takes that of the bodies' approach; `force` is that at rest, `stored` what it gives back at rest.

@@ -11,7 +11,7 @@
 struct energy_end {
     const double
         *indentation;    /* [contact], local, of those that are still closed; 0 of the others */
-    const double *force; /* [contact] of those that remember, N; NULL: none does */
+    const double *force; /* [contact] of lossy laws, N; NULL: there is none */
     const double *tangential; /* [2 frictions]: forces of the tangents, N; NULL: without friction */
     double damping;           /* lost so far, J */
 };

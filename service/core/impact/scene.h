@@ -70,12 +70,6 @@ static inline size_t scene_tangent(const struct scene *scene, size_t friction)
     return scene->contacts + 2 * friction;
 }
 
-/* Contacts with micro-slip. */
-static inline size_t scene_slipping(const struct scene *scene)
-{
-    return scene->plain ? 0 : scene->frictions;
-}
-
 /* The number of a contact's friction; scene->frictions: it has none. */
 static inline size_t scene_friction_of(const struct scene *scene, size_t contact)
 {
