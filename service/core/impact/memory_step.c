@@ -174,6 +174,12 @@ static double width_at_end(const struct memory_step *step, double end)
     return contact_memory_edge(end, pressed, step->memory.left.reach);
 }
 
+/* Of the cubic through the nodes, over the step's length. */
+static double slope_at_end(const double values[NODES])
+{
+    return sum_of(collocation.end[1], values);
+}
+
 /* Term k at a share x of the step. */
 static double memory_at(double z, double x, double start, const double values[NODES])
 {
@@ -387,7 +393,8 @@ void memory_step_take(struct memory_step *step, const struct way_taken *taken, b
         memory->shrinks = true;
         memory->width = memory->left.reach = step->turned.width;
     }
-    if (!memory->shrinks && taken->end_rate < 0.0 && end > 0.0)
+    /* its width does: d may fall beside it, as under a surface that recovers faster */
+    if (!memory->shrinks && end > 0.0 && slope_at_end(grown.width) < 0.0)
         contact_memory_shrink(memory, end);
     /* a turn that was missed: at the largest width of the step */
     if (!memory->shrinks && parted && memory->total[0] > 0.0 && widest > 0.0)
