@@ -131,7 +131,8 @@ static void recover(struct circles *circles, double time)
         }
 }
 
-void circles_touch(struct circles *circles, double depth, double time, const double displacement[2])
+void circles_touch(struct circles *circles, double depth, double time, double indentation,
+                   const double displacement[2])
 {
     double deeper = depth / circles->deep;
     bool same = circles->deep > 0.0 && deeper < SAME_DEPTH && deeper * SAME_DEPTH > 1.0;
@@ -141,7 +142,8 @@ void circles_touch(struct circles *circles, double depth, double time, const dou
         recover(circles, time);
     memcpy(circles->displacement, displacement, sizeof circles->displacement);
     memset(circles->force, 0, sizeof circles->force);
-    circles->indentation = circles->stuck = circles->stored = 0.0;
+    circles->indentation = indentation;
+    circles->stuck = circles->stored = 0.0;
 }
 
 /* ---- A walk ---- */

@@ -64,10 +64,11 @@ bool circles_create(struct circles *circles, const struct contact_law *law, doub
  * memory. */
 bool circles_second(struct circles *second, const struct circles *circles, struct arena *arena);
 
-/* The contact touches, `time` (s) after it has parted, at this displacement: its circles divide the
- * indentations by `depth` (m), about the largest one (sixteen times as much is as fine). They have
- * recovered freely since, or, where the depth is another one, from the beginning. */
-void circles_touch(struct circles *circles, double depth, double time,
+/* A contact phase begins, `time` (s) after the last one, at an indentation <= 0 (m) and this
+ * displacement: the circles divide the indentations by `depth` (m), about the largest one (sixteen
+ * times as much is as fine). They have recovered freely since, or, where the depth is another one,
+ * from the beginning. */
+void circles_touch(struct circles *circles, double depth, double time, double indentation,
                    const double displacement[2]);
 
 /* Copies the history. */

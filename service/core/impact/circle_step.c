@@ -18,10 +18,10 @@ bool circle_step_create(struct circle_step *step, const struct scene *scene, siz
            circles_second(&step->after, &step->now, arena);
 }
 
-void circle_step_begin(struct circle_step *step, double depth, double time,
+void circle_step_begin(struct circle_step *step, double depth, double time, double indentation,
                        const double displacement[2])
 {
-    circles_touch(&step->now, depth, time - step->time, displacement);
+    circles_touch(&step->now, depth, time - step->time, indentation, displacement);
     step->time = time;
 }
 

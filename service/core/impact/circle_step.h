@@ -35,7 +35,7 @@ bool circle_step_create(struct circle_step *step, const struct scene *scene, siz
                         const struct slip_points *points, struct arena *arena);
 
 /* A contact phase begins, at this time: as circles_touch. */
-void circle_step_begin(struct circle_step *step, double depth, double time,
+void circle_step_begin(struct circle_step *step, double depth, double time, double indentation,
                        const double displacement[2]);
 
 /* Walks to the nodes, under the normal forces there. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/extremes.h"
 #include "numeric/lagrange.h"
 
 /* The error of a sphere's tangential speed after the impact, over the coefficient's speed, is
@@ -104,10 +105,10 @@ void friction_step_begin(struct friction_step *step, const struct scene *scene, 
         double none[2];
         struct circle_step *circles = circles_of(step, i);
         if (circles) {
-            circle_step_begin(circles, depth[contact], time, d + row);
+            circle_step_begin(circles, depth[contact], time, smaller(d[contact], 0.0), d + row);
         } else {
             friction_touch(&step->now[i], &scene->laws[contact], depth[contact]);
-            friction_walk(&step->now[i], fmin(d[contact], 0.0), d + row, none);
+            friction_walk(&step->now[i], smaller(d[contact], 0.0), d + row, none);
         }
         begin_taken(&scene->friction[i], rates, step->taken + 3 * i);
     }
