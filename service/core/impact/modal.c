@@ -75,7 +75,7 @@ static const struct profile_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
  * ones (below), as with equal steps both solutions have the same error. */
 static const struct profile_limits several_compared = {0.6, 30.0, 30.0, 0.02, 0.4, 0.4};
 
-/* The force of a contact that remembers ends with a slope, not like t^(3/2): a step over its end
+/* The force of a contact that loses ends with a slope, not like t^(3/2): a step over its end
  * leaves some 0.06 of the square of its share in the impulse. */
 static const double PARTING = 1.0;
 

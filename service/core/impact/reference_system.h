@@ -21,9 +21,7 @@ struct followed {
     double parted_at, parted_rate; /* s; of the gap there, m/s */
 };
 
-/* A whole scene as one system of ordinary differential equations, for a general solver.
- *
- * y: [rows] gaps, [rows] gap rates, [rows] impulses, 1 damping loss, of each contact with friction
+/* y: [rows] gaps, [rows] gap rates, [rows] impulses, 1 damping loss, of each contact with friction
  * its normal work in compression and in release, where a law is lossy the work of all forces on
  * their approaches and what each contact remembers, then every group's q and v. Root functions: per
  * contact the local indentation, the approach rate and, where a law yields, the indentation beyond
